@@ -1,0 +1,145 @@
+"""Reflectances made of reflectances: sums, scaled ones, mixtures."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .formula.vec import Vec
+from .geometry.sampling import MixtureSampler, Sampler
+from .parameters import RGB, Parameterised, rgb
+from .reflectance import Floats, Reflectance
+
+
+class Sum(Reflectance):
+    """f = f1 + f2 + …; its lobes are `lobe1`, `lobe2`, …"""
+
+    def __init__(self, lobes: list[Reflectance]) -> None:
+        self._children = {f"lobe{i + 1}": lobe for i, lobe in enumerate(lobes)}
+        self.name = " + ".join(lobe.name or type(lobe).__name__ for lobe in lobes)
+
+    @property
+    def has_formula(self) -> bool:
+        return all(lobe.has_formula for lobe in self._children.values())
+
+    @property
+    def isotropic(self) -> bool:
+        return all(lobe.isotropic for lobe in self._children.values())
+
+    @property
+    def structure(self) -> tuple[Any, ...]:
+        return (Sum, *(lobe.structure for lobe in self._children.values()))
+
+    @property
+    def values(self) -> Mapping[str, Any]:
+        return {f"{key}_{k}": v for key, lobe in self._children.items() for k, v in lobe.values.items()}
+
+    @property
+    def textures(self) -> Mapping[str, NDArray[Any]]:
+        return {f"{key}_{k}": v for key, lobe in self._children.items() for k, v in lobe.textures.items()}
+
+    @property
+    def children(self) -> Mapping[str, Reflectance]:
+        return self._children
+
+    def f(self, wi: Vec, wo: Vec) -> Vec:
+        first, *others = (getattr(self, key).f(wi, wo) for key in self.children)
+        return sum(others, first)
+
+    def _evaluate_arrays(self, wi: Floats, wo: Floats, clamp: bool) -> Floats:
+        lobe_values = (lobe(wi, wo) if clamp else lobe.raw(wi, wo) for lobe in self._children.values())
+        return np.add.reduce(list(lobe_values))
+
+    def _make_sampler(self) -> Sampler:
+        lobes = list(self._children.values())
+        return MixtureSampler([lobe.sampler for lobe in lobes], [_typical_albedo(lobe) for lobe in lobes])
+
+    def _state(self) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+        return {}, {}
+
+    @classmethod
+    def _restore(cls, header: Any, arrays: Any, children: Mapping[str, Reflectance]) -> Reflectance:
+        return cls(list(children.values()))
+
+
+class Scaled(Parameterised, Reflectance):
+    """f = scale · f_base."""
+
+    scale: RGB = rgb("factor", default=1.0, low=0.0)
+
+    def __init__(self, base: Reflectance, scale: Any = 1.0) -> None:
+        super().__init__(scale=scale)
+        self._children = {"base": base}
+        self.name = base.name
+
+    @property
+    def has_formula(self) -> bool:
+        return self._children["base"].has_formula
+
+    @property
+    def isotropic(self) -> bool:
+        return self._children["base"].isotropic
+
+    @property
+    def structure(self) -> tuple[Any, ...]:
+        return (Scaled, self._children["base"].structure)
+
+    @property
+    def values(self) -> dict[str, Any]:
+        return super().values | {f"base_{k}": v for k, v in self._children["base"].values.items()}
+
+    @property
+    def textures(self) -> Mapping[str, NDArray[Any]]:
+        return {f"base_{k}": v for k, v in self._children["base"].textures.items()}
+
+    @property
+    def children(self) -> Mapping[str, Reflectance]:
+        return self._children
+
+    def f(self, wi: Vec, wo: Vec) -> Vec:
+        return self.scale * self.base.f(wi, wo)
+
+    def _evaluate_arrays(self, wi: Floats, wo: Floats, clamp: bool) -> Floats:
+        base = self._children["base"]
+        value = base(wi, wo) if clamp else base.raw(wi, wo)
+        return value * np.asarray(self.scale, value.dtype)
+
+    def _make_sampler(self) -> Sampler:
+        return self._children["base"].sampler
+
+    def _state(self) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+        return {"scale": list(self.scale)}, {}
+
+    @classmethod
+    def _restore(cls, header: Any, arrays: Any, children: Mapping[str, Reflectance]) -> Reflectance:
+        return cls(children["base"], header["scale"])
+
+    def __repr__(self) -> str:
+        return f"{tuple(map(float, self.scale))} * {self._children['base']!r}"
+
+
+def add(a: Reflectance, b: Reflectance) -> Sum:
+    """a + b, nested sums flattened."""
+    lobes = [lobe for m in (a, b) for lobe in (m.children.values() if isinstance(m, Sum) else (m,))]
+    return Sum(lobes)
+
+
+def scaled(base: Reflectance, scale: Any) -> Scaled:
+    """scale · base; `scale` is a number or an RGB triple >= 0. Raises ParameterError."""
+    if isinstance(base, Scaled):
+        outer = Scaled(base, scale).scale
+        return Scaled(base.children["base"], outer * base.scale)
+    return Scaled(base, scale)
+
+
+def mix(a: Reflectance, b: Reflectance, t: float) -> Sum:
+    """(1 - t) a + t b, t in [0, 1]."""
+    return add(scaled(a, 1 - t), scaled(b, t))
+
+
+def _typical_albedo(lobe: Reflectance) -> float:
+    """A weight for choosing between lobes: the mean albedo at 45 degrees. It only steers the sampling."""
+    return float(lobe.albedo([np.sqrt(0.5), 0.0, np.sqrt(0.5)], samples=256).mean())

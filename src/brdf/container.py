@@ -1,0 +1,78 @@
+"""The file every reflectance saves to: safetensors with a JSON header.
+
+Arrays are stored as they are; the header (under the key "brdf") holds the schema version, the kind of each
+reflectance and its numbers. Nothing is ever unpickled, and a file is replaced whole or not at all.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import tempfile
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import CorruptFileError, FileError
+
+SCHEMA = 1
+"""Raised when a file written by this version cannot be read by earlier ones."""
+
+
+@contextlib.contextmanager
+def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """A temporary path beside `path`, renamed to it when the block ends well, removed when it does not.
+
+    Raises FileError when the folder cannot be written.
+    """
+    target = Path(path)
+    if target.is_dir():
+        raise FileError(target, "is a folder; give a file name.")
+    try:
+        handle, name = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent or ".")
+    except OSError as error:
+        raise FileError(target, f"cannot be written ({error.strerror}); choose another place with -o.") from None
+    os.close(handle)
+    temporary = Path(name)
+    try:
+        yield temporary
+        umask = os.umask(0)
+        os.umask(umask)
+        temporary.chmod(0o666 & ~umask)
+        temporary.replace(target)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def save(path: str | os.PathLike[str], header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> None:
+    """Write header and arrays as one safetensors file."""
+    from safetensors.numpy import save_file
+
+    metadata = {"brdf": json.dumps({"schema": SCHEMA, **header}, allow_nan=False)}
+    contiguous = {name: np.ascontiguousarray(array) for name, array in arrays.items()}
+    with replacing(path) as temporary:
+        save_file(contiguous, temporary, metadata)
+
+
+def load(path: str | os.PathLike[str]) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+    """Header and arrays of a file written by `save`. Raises CorruptFileError when it is not one."""
+    from safetensors import SafetensorError, safe_open
+
+    try:
+        with safe_open(path, framework="numpy") as file:
+            metadata = file.metadata() or {}
+            arrays = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118  (not a mapping)
+    except SafetensorError as error:
+        raise CorruptFileError(path, f"not a whole safetensors file ({error}).") from None
+    try:
+        header = json.loads(metadata["brdf"])
+        schema = int(header["schema"])
+    except (KeyError, TypeError, ValueError):
+        raise CorruptFileError(path, "a safetensors file, but not one of brdf's (its header is missing).") from None
+    if schema > SCHEMA:
+        raise CorruptFileError(path, f"written by a newer brdf (schema {schema}, known {SCHEMA}); upgrade brdf.")
+    return header, arrays

@@ -1,0 +1,1 @@
+"""The parts microfacet models are made of: slope distributions, masking, Fresnel reflectance."""

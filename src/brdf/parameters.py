@@ -1,0 +1,264 @@
+"""Parameters declared once.
+
+A class that has parameters declares them in its body: default, bounds, unit, one line of documentation. Constructor,
+validation, `brdf info`, fit transforms, sliders and shader uniforms all derive from the declaration.
+
+    class Ward(Model):
+        rho: RGB = albedo("specular reflectance scale", default=0.5)
+        alpha_x: Scalar = width("RMS slope along the tangent", default=0.2)
+        alpha_y: Scalar = width("RMS slope along the bitangent", follows="alpha_x")
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .errors import ParameterError, UnknownNameError
+from .formula.vec import Vec
+
+Value = float | NDArray[np.float64]
+RGB = Any
+Scalar = Any
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One declared parameter.
+
+    `size` is 1 (a number) or 3 (a colour; one number given means all three). `low <= value <= high`. A parameter that
+    `follows` another has no default of its own: it takes the other's value unless it is given.
+    """
+
+    doc: str
+    default: float | tuple[float, ...] | None
+    low: float = -math.inf
+    high: float = math.inf
+    unit: str = "1"
+    size: int = 1
+    follows: str | None = None
+    name: str = field(default="", init=False, compare=False)
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        object.__setattr__(self, "name", name)
+
+    def __get__(self, owner: Parameterised | None, cls: type) -> Any:
+        if owner is None:
+            return self
+        for name in (self.name, self.follows):
+            if name in owner._values:
+                return owner._values[name]
+        raise AttributeError(f"{self.name} is not in force in {owner!r}")
+
+    def validated(self, name: str, value: Any) -> Value:
+        """`value` as float (size 1) or float64 array (size 3); ParameterError names parameter, bounds, and what was given."""
+        try:
+            array = np.asarray(value, np.float64)
+        except (TypeError, ValueError):
+            raise ParameterError(f"{name} must be {self._kind}, got {value!r}") from None
+        if array.shape not in ((), (self.size,)):
+            raise ParameterError(f"{name} must be {self._kind}, got shape {array.shape}")
+        if not np.all((array >= self.low) & (array <= self.high)):
+            raise ParameterError(f"{name} must lie in [{self.low:g}, {self.high:g}], got {_plain(array)}")
+        if self.size == 1:
+            return float(array.reshape(()))
+        array = np.broadcast_to(array, (self.size,)).copy()
+        array.flags.writeable = False
+        return array
+
+    @property
+    def _kind(self) -> str:
+        return "a number" if self.size == 1 else f"a number or {self.size} numbers"
+
+
+def _plain(array: NDArray[np.float64]) -> str:
+    return f"{array:g}" if array.ndim == 0 else "(" + ", ".join(f"{v:g}" for v in array) + ")"
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A declared choice between named parts or behaviours; part of the formula's structure, not a number in it."""
+
+    doc: str
+    default: str
+    options: Mapping[str, Any]
+    name: str = field(default="", init=False, compare=False)
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        object.__setattr__(self, "name", name)
+
+    def __get__(self, owner: Parameterised | None, cls: type) -> Any:
+        return self if owner is None else owner._chosen[self.name]
+
+    def validated(self, name: str, value: Any) -> str:
+        if value not in self.options:
+            raise UnknownNameError(name, str(value), self.options)
+        return str(value)
+
+
+def number(
+    doc: str, default: float | None = None, low: float = -math.inf, high: float = math.inf, unit: str = "1",
+    follows: str | None = None,
+) -> Any:  # fmt: skip
+    return Parameter(doc, default, low, high, unit, 1, follows)
+
+
+def rgb(
+    doc: str, default: float | tuple[float, ...], low: float = -math.inf, high: float = math.inf, unit: str = "1"
+) -> Any:
+    return Parameter(doc, default, low, high, unit, 3)
+
+
+def albedo(doc: str, default: float | tuple[float, ...] = 0.5) -> Any:
+    """A colour in [0, 1]."""
+    return rgb(doc, default, 0.0, 1.0)
+
+
+def width(doc: str, default: float | None = None, follows: str | None = None) -> Any:
+    """A lobe width `alpha`, as it enters the formula (not the perceptual roughness)."""
+    return Parameter(doc, default, 1e-4, 1.0 if default is None or default <= 1 else 10.0, "1", 1, follows)
+
+
+def choice(doc: str, default: str, options: Mapping[str, Any]) -> Any:
+    return Choice(doc, default, options)
+
+
+class Parameterised:
+    """Something with declared parameters and choices, given to the constructor by name and read as attributes.
+
+    Immutable: `replaced(alpha=0.3)` gives a changed copy. `Parameterised` options of a choice are *parts*: instances
+    made here, whose parameters are taken from the same keywords and appear beside the owner's.
+    """
+
+    _declared: ClassVar[dict[str, Parameter]] = {}
+    _choices: ClassVar[dict[str, Choice]] = {}
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        own = vars(cls)
+        cls._declared = cls._declared | {k: v for k, v in own.items() if isinstance(v, Parameter)}
+        cls._choices = cls._choices | {k: v for k, v in own.items() if isinstance(v, Choice)}
+
+    def __init__(self, **given: Any) -> None:
+        self._chosen = {name: c.validated(name, given.pop(name, c.default)) for name, c in self._choices.items()}
+        self._parts: dict[str, Parameterised] = {}
+        for name, chosen in self._chosen.items():
+            option = self._choices[name].options[chosen]
+            if isinstance(option, type) and issubclass(option, Parameterised):
+                taken = {k: given.pop(k) for k in list(given) if k in option._declared and k not in self._declared}
+                self._parts[name] = option(**taken)
+        for name in given:
+            if name not in self._declared:
+                self._refuse(name)
+        self._values = {
+            name: p.validated(name, given.get(name, p.default))
+            for name, p in self._declared.items()
+            if name in given or p.default is not None
+        }
+        # A leader whose followers are all given takes no part in the formula.
+        for leader in {p.follows for p in self._declared.values() if p.follows}:
+            followers = [name for name, p in self._declared.items() if p.follows == leader]
+            if all(name in given for name in followers):
+                if leader in given:
+                    raise ParameterError(f"{leader} has no effect beside {' and '.join(followers)}")
+                del self._values[leader]
+
+    def _refuse(self, name: str) -> None:
+        for choice_name, c in self._choices.items():
+            for option_name, option in c.options.items():
+                if isinstance(option, type) and issubclass(option, Parameterised) and name in option._declared:
+                    raise ParameterError(
+                        f"{name} has no effect with {choice_name}={self._chosen[choice_name]!r}; "
+                        f"it belongs to {choice_name}={option_name!r}"
+                    )
+        known = [*self._choices, *self.declarations()]
+        raise UnknownNameError(f"parameter of {type(self).__name__}", name, known)
+
+    def declarations(self) -> dict[str, Parameter]:
+        """Every parameter this instance can be given, its parts' included."""
+        found = dict(self._declared)
+        for part in self._parts.values():
+            found |= part.declarations()
+        return found
+
+    @property
+    def values(self) -> dict[str, Value]:
+        """The values in force by name: numbers and (3,) arrays."""
+        found = dict(self._values)
+        for part in self._parts.values():
+            found |= part.values
+        return found
+
+    @property
+    def choices(self) -> dict[str, str]:
+        return dict(self._chosen)
+
+    @property
+    def structure(self) -> tuple[Any, ...]:
+        """What the traced formula depends on beside the numbers: class, choices, which parameters are in force."""
+        parts = tuple(part.structure for part in self._parts.values())
+        return (type(self), *self._chosen.items(), *self._values, *parts)
+
+    def replaced(self, **changes: Any) -> Any:
+        """A copy with other values."""
+        return type(self)(**{**self._chosen, **self.values, **changes})
+
+    def __getattr__(self, name: str) -> Any:
+        if not name.startswith("_"):
+            for part in self.__dict__.get("_parts", {}).values():
+                if name in part.declarations():
+                    return getattr(part, name)
+        raise AttributeError(f"{type(self).__name__!r} has no attribute {name!r}")
+
+    def __repr__(self) -> str:
+        shown = [f"{k}={v!r}" for k, v in self._chosen.items() if len(self._choices[k].options) > 1]
+        shown += [f"{k}={_plain(np.asarray(v))}" for k, v in self.values.items()]
+        return f"{type(self).__name__}({', '.join(shown)})"
+
+
+
+class Bound:
+    """A parameterised object as its formula sees it: parameters are symbols or arrays, everything else as it is.
+
+    `lookup(path)` gives the value of a parameter or texture by full name; the object's formulas run with a `Bound` as
+    their `self`, so that one text serves every backend.
+    """
+
+    def __init__(self, target: Any, lookup: Any, prefix: str = "") -> None:
+        self._target, self._lookup, self._prefix = target, lookup, prefix
+
+    def __getattr__(self, name: str) -> Any:
+        target = self._target
+        parts = getattr(target, "_parts", {})
+        if name in parts:
+            return Bound(parts[name], self._lookup, self._prefix)
+        all_declared = getattr(type(target), "_declared", {})
+        declared = all_declared.get(name)
+        if declared is not None:
+            if name not in target._values and declared.follows is not None:
+                name = declared.follows
+            return self._lookup(self._prefix + name)
+        if name in getattr(target, "textures", {}):
+            return self._lookup(self._prefix + name)
+        children = getattr(target, "children", {})
+        if name in children:
+            return Bound(children[name], self._lookup, f"{self._prefix}{name}_")
+        attribute = getattr(type(target), name, None)
+        if callable(attribute) and hasattr(attribute, "__get__"):
+            return attribute.__get__(self)  # a method of the formula: it runs with the bound self, too
+        for part in parts.values():
+            if name in part.declarations():
+                return getattr(Bound(part, self._lookup, self._prefix), name)
+        return getattr(target, name)
+
+
+def bound_value(value: Value, number_type: Any) -> Any:
+    """A parameter's value as a formula takes it: a scalar of the wanted type, or a `Vec` of them."""
+    if isinstance(value, float):
+        return number_type(value)
+    return Vec(*map(number_type, value))

@@ -1,0 +1,288 @@
+"""The contract: what every reflectance is and does.
+
+Local frame: normal +z, tangent +x, bitangent +y, right-handed. `wi` points to the light, `wo` to the viewer, both away
+from the surface and of unit length. `f(wi, wo)` is the BRDF without the cosine, in 1/sr, linear RGB (Rec. 709).
+"""
+
+from __future__ import annotations
+
+import os
+from abc import ABC
+from collections.abc import Mapping
+from typing import Any, ClassVar, NamedTuple, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import container
+from .errors import CorruptFileError, DirectionError, ReflectanceError
+from .formula import engine
+from .formula.backends import backend_of, is_foreign
+from .formula.vec import Vec
+from .geometry.sampling import Sampler, TabulatedSampler
+
+Floats = NDArray[np.floating[Any]]
+
+
+class Sample(NamedTuple):
+    """Sampled directions towards the light."""
+
+    wi: Floats
+    """(..., 3) directions"""
+    weight: Floats
+    """(..., 3) f |cos| / pdf; 0 where the direction is of no use (below the horizon)"""
+    pdf: Floats
+    """(...) density, 1/sr"""
+    is_delta: NDArray[np.bool_]
+    """(...) whether the direction comes from a delta distribution (mirror, smooth refraction)"""
+
+
+class Reflectance(ABC):
+    """A reflectance: a formula over two directions (or arrays behind one), with parameters and textures.
+
+    A concrete class gives `f` (a formula, traced and compiled) or, when its evaluation needs a search, sets
+    `has_formula = False` and gives `_evaluate_arrays`. Everything else derives from that.
+    """
+
+    transmits: ClassVar[bool] = False
+    """Whether it is defined below the horizon, too."""
+    breaks: ClassVar[Mapping[str, str]] = {}
+    """Laws it is known to break, each with the reason and its source."""
+    _kinds: ClassVar[dict[str, type[Reflectance]]] = {}
+
+    name: str = ""
+    source: str = ""
+    """Where it comes from: file, paper, fit, operator chain."""
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        Reflectance._kinds[cls.__name__] = cls
+
+    # ---- what a concrete class gives -------------------------------------------------------------------------
+
+    @property
+    def has_formula(self) -> bool:
+        """Whether `f` exists: then it compiles to every backend."""
+        return True
+
+    @property
+    def isotropic(self) -> bool:
+        """Whether the value stays when both directions turn together about the normal."""
+        return True
+
+    @property
+    def structure(self) -> tuple[Any, ...]:
+        """What the traced formula depends on beside the numbers."""
+        raise NotImplementedError
+
+    @property
+    def values(self) -> Mapping[str, Any]:
+        """Parameters by full name: floats and (3,) arrays."""
+        return {}
+
+    @property
+    def textures(self) -> Mapping[str, NDArray[Any]]:
+        """Textures by full name: arrays (n1, …, nk, channels)."""
+        return {}
+
+    @property
+    def children(self) -> Mapping[str, Reflectance]:
+        return {}
+
+    def f(self, wi: Vec, wo: Vec) -> Vec:
+        """The formula: one straight line from two directions to RGB [1/sr]. No guards, no batching."""
+        raise ReflectanceError(f"{self.name or type(self).__name__} has no formula; bake it to a Table first")
+
+    def _evaluate_arrays(self, wi: Floats, wo: Floats, clamp: bool) -> Floats:
+        """(N, 3), (N, 3) -> (N, 3); zero below the horizon, negative values clamped on request."""
+        raise NotImplementedError
+
+    def _make_sampler(self) -> Sampler:
+        """The default is tabulated from the values; a reflectance that knows better overrides it."""
+        return TabulatedSampler(self, isotropic=self.isotropic)
+
+    # ---- evaluation ------------------------------------------------------------------------------------------
+
+    def __call__(self, wi: Any, wo: Any, uv: Any = None) -> Any:
+        """f(wi, wo) without the cosine [1/sr].
+
+        `wi`, `wo`: (..., 3) unit vectors that broadcast; `uv`: (..., 2) for what varies in space, else ignored.
+        Returns (..., 3), float32 when both inputs are float32, else float64; zero where either direction lies below
+        the horizon; measured values below zero are clamped. JAX, PyTorch and Dr.Jit arrays give arrays of their kind.
+        Raises DirectionError for a wrong shape or a length off by more than 0.1 %.
+        """
+        return self._guarded(wi, wo, clamp=True)
+
+    def raw(self, wi: Any, wo: Any, uv: Any = None) -> Any:
+        """As the call, with negative measured values untouched."""
+        return self._guarded(wi, wo, clamp=False)
+
+    def f_cos(self, wi: Any, wo: Any, uv: Any = None) -> Any:
+        """f(wi, wo) times the cosine of the light's angle, max(0, wi.z) [1/sr]; |wi.z| for what transmits."""
+        value = self(wi, wo, uv)
+        cosine = wi[..., 2:] if not isinstance(wi, (list, tuple)) else np.asarray(wi)[..., 2:]
+        return value * abs(cosine) if self.transmits else value * cosine.clip(0)
+
+    def _guarded(self, wi: Any, wo: Any, clamp: bool) -> Any:
+        if is_foreign(wi) or is_foreign(wo):
+            return self._evaluate_foreign(wi, wo, clamp)
+        wi, wo, shape = broadcast_directions(wi, wo)
+        if self.has_formula:
+            value = engine.evaluate(self, wi, wo, clamp)
+        else:
+            engine.check_lengths(wi, wo)
+            value = self._evaluate_arrays(wi, wo, clamp)
+        return value.reshape(*shape, value.shape[-1])
+
+    def _evaluate_foreign(self, wi: Any, wo: Any, clamp: bool) -> Any:
+        """The formula on another library's arrays: last axis 3 (JAX, PyTorch) or a 3-vector type (Dr.Jit, Mitsuba)."""
+        backend = backend_of(wi, wo)
+        if hasattr(backend, "stack"):
+            vectors = [Vec(w[..., 0], w[..., 1], w[..., 2]) for w in (wi, wo)]
+            return backend.stack(engine.run(self, *vectors, clamp).components)
+        return type(wi)(*engine.run(self, Vec(wi[0], wi[1], wi[2]), Vec(wo[0], wo[1], wo[2]), clamp))
+
+    # ---- sampling --------------------------------------------------------------------------------------------
+
+    @property
+    def sampler(self) -> Sampler:
+        """How `sample` draws directions; made on first use."""
+        made: Sampler | None = self.__dict__.get("_sampler")
+        if made is None:
+            made = self.__dict__["_sampler"] = self._make_sampler()
+        return made
+
+    def sample(self, wo: ArrayLike, u: ArrayLike) -> Sample:
+        """Directions towards the light for viewing directions `wo` (..., 3) and random numbers `u` (..., 2) in [0, 1)."""
+        wo, u = np.asarray(wo), np.asarray(u)
+        shape = np.broadcast_shapes(wo.shape[:-1], u.shape[:-1])
+        wo = np.broadcast_to(as_directions("wo", wo), (*shape, 3)).reshape(-1, 3)
+        wi, is_delta = self.sampler.sample(wo, np.broadcast_to(u, (*shape, 2)).reshape(-1, 2))
+        pdf = self.sampler.pdf(wi, wo)
+        cosine = np.abs(wi[:, 2]) if self.transmits else np.maximum(wi[:, 2], 0)
+        usable = pdf > 0
+        scale = np.where(usable, cosine / np.where(usable, pdf, 1), 0)
+        weight = self(wi, wo) * scale[:, None]
+        return Sample(
+            wi.reshape(*shape, 3), weight.reshape(*shape, 3), pdf.reshape(shape), is_delta.reshape(shape)
+        )
+
+    def pdf(self, wi: ArrayLike, wo: ArrayLike) -> Floats:
+        """Density with which `sample(wo, ·)` draws `wi` [1/sr]; integrates to at most 1 over the upper hemisphere."""
+        wi, wo, shape = broadcast_directions(wi, wo)
+        return self.sampler.pdf(wi, wo).reshape(shape)
+
+    def albedo(self, wo: ArrayLike, samples: int = 4096) -> Floats:
+        """Directional-hemispherical reflectance, (..., 3): the share of light from `wo` that is reflected at all."""
+        return self._albedo(wo, samples)[0]
+
+    def albedo_error(self, wo: ArrayLike, samples: int = 4096) -> Floats:
+        """Estimated standard error of `albedo(wo, samples)`, (..., 3)."""
+        return self._albedo(wo, samples)[1]
+
+    def _albedo(self, wo: ArrayLike, samples: int) -> tuple[Floats, Floats]:
+        from .geometry.quadrature import replicated_points
+
+        points = replicated_points(samples)
+        wo = as_directions("wo", np.asarray(wo))
+        shape = wo.shape[:-1]
+        means = np.empty((*shape, len(points), 3))
+        for index in np.ndindex(shape):
+            for replicate, u in enumerate(points):
+                means[index][replicate] = self.sample(wo[index], u).weight.mean(0)
+        return means.mean(-2), means.std(-2, ddof=1) / np.sqrt(len(points))
+
+    # ---- combination and storage -----------------------------------------------------------------------------
+
+    def __add__(self, other: Reflectance) -> Reflectance:
+        from .combinators import add
+
+        return add(self, other) if isinstance(other, Reflectance) else NotImplemented
+
+    def __rmul__(self, scale: Any) -> Reflectance:
+        from .combinators import scaled
+
+        return scaled(self, scale)
+
+    __mul__ = __rmul__
+
+    @property
+    def nbytes(self) -> int:
+        """What the representation costs in memory: textures as stored, plus 4 bytes a number."""
+        return sum(t.nbytes for t in self.textures.values()) + 4 * sum(np.size(v) for v in self.values.values())
+
+    def named(self, name: str, source: str = "") -> Self:
+        """Set name and provenance; returns self."""
+        self.name, self.source = name, source or self.source
+        return self
+
+    def state(self) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+        """A JSON header and arrays that `from_state` turns back into this reflectance."""
+        header: dict[str, Any] = {"kind": type(self).__name__, "name": self.name, "source": self.source}
+        own, arrays = self._state()
+        for key, child in self.children.items():
+            child_header, child_arrays = child.state()
+            header.setdefault("children", {})[key] = child_header
+            arrays |= {f"{key}.{k}": v for k, v in child_arrays.items()}
+        return header | own, arrays
+
+    def _state(self) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+        """This class's own part of `state`."""
+        raise NotImplementedError
+
+    @classmethod
+    def _restore(
+        cls, header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], children: Mapping[str, Reflectance]
+    ) -> Reflectance:
+        """The inverse of `_state`. May raise KeyError, TypeError or ValueError for a broken header."""
+        raise NotImplementedError
+
+    @staticmethod
+    def from_state(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> Reflectance:
+        """The reflectance that `state` described. Raises KeyError for an unknown kind."""
+        children = {
+            key: Reflectance.from_state(
+                child, {k[len(key) + 1 :]: v for k, v in arrays.items() if k.startswith(f"{key}.")}
+            )
+            for key, child in header.get("children", {}).items()
+        }
+        made = Reflectance._kinds[header["kind"]]._restore(header, arrays, children)
+        return made.named(header.get("name", ""), header.get("source", ""))
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write everything to one safetensors file, which `brdf.load` reads."""
+        container.save(path, *self.state())
+
+    @staticmethod
+    def restore(path: str | os.PathLike[str]) -> Reflectance:
+        """Read a file written by `save`. Raises CorruptFileError."""
+        header, arrays = container.load(path)
+        try:
+            return Reflectance.from_state(header, arrays)
+        except (KeyError, TypeError, ValueError, AttributeError) as error:
+            raise CorruptFileError(path, f"its header does not describe a reflectance ({error}).") from None
+
+
+def as_directions(name: str, w: ArrayLike) -> Floats:
+    """(..., 3) floats; float32 stays float32. Raises DirectionError."""
+    array = np.asarray(w)
+    if array.dtype != np.float32:
+        try:
+            array = array.astype(np.float64, copy=False)
+        except (TypeError, ValueError):
+            raise DirectionError(f"{name} must hold numbers, got {array.dtype}") from None
+    if array.ndim == 0 or array.shape[-1] != 3:
+        raise DirectionError(f"{name} must have shape (..., 3), got {array.shape}")
+    return array
+
+
+def broadcast_directions(wi: ArrayLike, wo: ArrayLike) -> tuple[Floats, Floats, tuple[int, ...]]:
+    """Both as (N, 3) of one dtype, and the shape they broadcast to. Raises DirectionError."""
+    wi, wo = as_directions("wi", wi), as_directions("wo", wo)
+    try:
+        shape = np.broadcast_shapes(wi.shape[:-1], wo.shape[:-1])
+    except ValueError:
+        raise DirectionError(f"wi {wi.shape} and wo {wo.shape} do not broadcast") from None
+    dtype = np.result_type(wi, wo)
+    flat = [np.broadcast_to(w.astype(dtype, copy=False), (*shape, 3)).reshape(-1, 3) for w in (wi, wo)]
+    return flat[0], flat[1], shape
