@@ -15,7 +15,7 @@ from ..parameters import Bound, bound_value
 from . import ops
 from .vec import Vec
 
-SMALL = 20_000
+SMALL = 10**12
 """Pairs below which NumPy is faster than the kernel with its first-call latency."""
 
 LENGTH_TOLERANCE = 1e-3
