@@ -7,7 +7,7 @@ from the surface and of unit length. `f(wi, wo)` is the BRDF without the cosine,
 from __future__ import annotations
 
 import os
-from abc import ABC
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import Any, ClassVar, NamedTuple, Self
 
@@ -22,6 +22,9 @@ from .formula.vec import Vec
 from .geometry.sampling import Sampler, TabulatedSampler
 
 Floats = NDArray[np.floating[Any]]
+
+ALBEDO_BLOCK = 1 << 18
+"""Samples an albedo takes at once: bounds the memory of many viewing directions."""
 
 
 class Sample(NamedTuple):
@@ -153,7 +156,7 @@ class Reflectance(ABC):
         return made
 
     def sample(self, wo: ArrayLike, u: ArrayLike) -> Sample:
-        """Directions towards the light for viewing directions `wo` (..., 3) and random numbers `u` (..., 2) in [0, 1)."""
+        """Directions towards the light, for viewing directions `wo` (..., 3) and numbers `u` (..., 2) in [0, 1)."""
         wo, u = np.asarray(wo), np.asarray(u)
         shape = np.broadcast_shapes(wo.shape[:-1], u.shape[:-1])
         wo = np.broadcast_to(as_directions("wo", wo), (*shape, 3)).reshape(-1, 3)
@@ -163,9 +166,7 @@ class Reflectance(ABC):
         usable = pdf > 0
         scale = np.where(usable, cosine / np.where(usable, pdf, 1), 0)
         weight = self(wi, wo) * scale[:, None]
-        return Sample(
-            wi.reshape(*shape, 3), weight.reshape(*shape, 3), pdf.reshape(shape), is_delta.reshape(shape)
-        )
+        return Sample(wi.reshape(*shape, 3), weight.reshape(*shape, 3), pdf.reshape(shape), is_delta.reshape(shape))
 
     def pdf(self, wi: ArrayLike, wo: ArrayLike) -> Floats:
         """Density with which `sample(wo, ·)` draws `wi` [1/sr]; integrates to at most 1 over the upper hemisphere."""
@@ -185,12 +186,15 @@ class Reflectance(ABC):
 
         points = replicated_points(samples)
         wo = as_directions("wo", np.asarray(wo))
-        shape = wo.shape[:-1]
-        means = np.empty((*shape, len(points), 3))
-        for index in np.ndindex(shape):
-            for replicate, u in enumerate(points):
-                means[index][replicate] = self.sample(wo[index], u).weight.mean(0)
-        return means.mean(-2), means.std(-2, ddof=1) / np.sqrt(len(points))
+        views = wo.reshape(-1, 1, 1, 3)
+        at_once = max(1, ALBEDO_BLOCK // points[..., 0].size)
+        means = np.empty((len(views), len(points), 3))
+        for start in range(0, len(views), at_once):
+            block = slice(start, start + at_once)
+            means[block] = self.sample(views[block], points).weight.mean(2, np.float64)
+        replicates = means.reshape(*wo.shape[:-1], len(points), 3)
+        errors = replicates.std(-2, ddof=1) / np.sqrt(len(points))
+        return replicates.mean(-2).astype(wo.dtype), errors.astype(wo.dtype)
 
     # ---- combination and storage -----------------------------------------------------------------------------
 
@@ -226,13 +230,16 @@ class Reflectance(ABC):
             arrays |= {f"{key}.{k}": v for k, v in child_arrays.items()}
         return header | own, arrays
 
+    @abstractmethod
     def _state(self) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
         """This class's own part of `state`."""
-        raise NotImplementedError
 
     @classmethod
     def _restore(
-        cls, header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], children: Mapping[str, Reflectance]
+        cls,
+        header: Mapping[str, Any],
+        arrays: Mapping[str, NDArray[Any]],
+        children: Mapping[str, Reflectance],
     ) -> Reflectance:
         """The inverse of `_state`. May raise KeyError, TypeError or ValueError for a broken header."""
         raise NotImplementedError
