@@ -47,11 +47,13 @@ class Sum(Reflectance):
 
     def f(self, wi: Vec, wo: Vec) -> Vec:
         first, *others = (getattr(self, key).f(wi, wo) for key in self.children)
-        return sum(others, first)
+        total: Vec = sum(others, first)
+        return total
 
     def _evaluate_arrays(self, wi: Floats, wo: Floats, clamp: bool) -> Floats:
         lobe_values = (lobe(wi, wo) if clamp else lobe.raw(wi, wo) for lobe in self._children.values())
-        return np.add.reduce(list(lobe_values))
+        total: Floats = np.add.reduce(list(lobe_values))
+        return total
 
     def _make_sampler(self) -> Sampler:
         lobes = list(self._children.values())
@@ -100,11 +102,12 @@ class Scaled(Parameterised, Reflectance):
         return self._children
 
     def f(self, wi: Vec, wo: Vec) -> Vec:
-        return self.scale * self.base.f(wi, wo)
+        value: Vec = self.scale * self.base.f(wi, wo)
+        return value
 
     def _evaluate_arrays(self, wi: Floats, wo: Floats, clamp: bool) -> Floats:
         base = self._children["base"]
-        value = base(wi, wo) if clamp else base.raw(wi, wo)
+        value: Floats = base(wi, wo) if clamp else base.raw(wi, wo)
         return value * np.asarray(self.scale, value.dtype)
 
     def _make_sampler(self) -> Sampler:

@@ -56,7 +56,7 @@ class Parameter:
         raise AttributeError(f"{self.name} is not in force in {owner!r}")
 
     def validated(self, name: str, value: Any) -> Value:
-        """`value` as float (size 1) or float64 array (size 3); ParameterError names parameter, bounds, and what was given."""
+        """`value` as float (size 1) or float64 array (size 3). Raises ParameterError."""
         try:
             array = np.asarray(value, np.float64)
         except (TypeError, ValueError):
@@ -109,7 +109,11 @@ def number(
 
 
 def rgb(
-    doc: str, default: float | tuple[float, ...], low: float = -math.inf, high: float = math.inf, unit: str = "1"
+    doc: str,
+    default: float | tuple[float, ...],
+    low: float = -math.inf,
+    high: float = math.inf,
+    unit: str = "1",
 ) -> Any:
     return Parameter(doc, default, low, high, unit, 3)
 
@@ -221,7 +225,6 @@ class Parameterised:
         return f"{type(self).__name__}({', '.join(shown)})"
 
 
-
 class Bound:
     """A parameterised object as its formula sees it: parameters are symbols or arrays, everything else as it is.
 
@@ -243,7 +246,7 @@ class Bound:
             if name not in target._values and declared.follows is not None:
                 name = declared.follows
             return self._lookup(self._prefix + name)
-        if name in getattr(target, "textures", {}):
+        if name in getattr(target, "textures", {}) or name in getattr(target, "values", {}):
             return self._lookup(self._prefix + name)
         children = getattr(target, "children", {})
         if name in children:

@@ -141,9 +141,10 @@ class Reflectance(ABC):
         """The formula on another library's arrays: last axis 3 (JAX, PyTorch) or a 3-vector type (Dr.Jit, Mitsuba)."""
         backend = backend_of(wi, wo)
         if hasattr(backend, "stack"):
-            vectors = [Vec(w[..., 0], w[..., 1], w[..., 2]) for w in (wi, wo)]
-            return backend.stack(engine.run(self, *vectors, clamp).components)
-        return type(wi)(*engine.run(self, Vec(wi[0], wi[1], wi[2]), Vec(wo[0], wo[1], wo[2]), clamp))
+            i, o = (Vec(w[..., 0], w[..., 1], w[..., 2]) for w in (wi, wo))
+            return backend.stack(engine.run(self, i, o, clamp).components)
+        i, o = (Vec(w[0], w[1], w[2]) for w in (wi, wo))
+        return type(wi)(*engine.run(self, i, o, clamp))
 
     # ---- sampling --------------------------------------------------------------------------------------------
 

@@ -1,9 +1,37 @@
-"""The formula compiler: a reflectance is written once in plain Python and runs, differentiates and prints everywhere."""
+"""The formula compiler: written once in plain Python, a reflectance runs, differentiates and prints everywhere."""
 
 from .backends import pi
 from .ops import (
-    abs, acos, asin, atan, atan2, clip, cos, cross, dot, erf, exp, floor, length, log, maximum, mean, minimum, mix,
-    normalize, pow, reflect, saturate, sign, sin, sqrt, tan, texture1d, texture2d, texture3d, where,
+    abs,
+    acos,
+    asin,
+    atan,
+    atan2,
+    clip,
+    cos,
+    cross,
+    dot,
+    erf,
+    exp,
+    floor,
+    length,
+    log,
+    maximum,
+    mean,
+    minimum,
+    mix,
+    normalize,
+    pow,
+    reflect,
+    saturate,
+    sign,
+    sin,
+    sqrt,
+    tan,
+    texture1d,
+    texture2d,
+    texture3d,
+    where,
 )  # fmt: skip
 from .vec import Scalar, Vec
 

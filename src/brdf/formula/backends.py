@@ -14,7 +14,19 @@ from typing import Any
 
 import numpy as np
 
-_SAME_NAME_EVERYWHERE = ("sqrt", "exp", "log", "sin", "cos", "tan", "floor", "sign", "abs", "minimum", "maximum")
+_SAME_NAME_EVERYWHERE = (
+    "sqrt",
+    "exp",
+    "log",
+    "sin",
+    "cos",
+    "tan",
+    "floor",
+    "sign",
+    "abs",
+    "minimum",
+    "maximum",
+)
 _TORCH_NAMES = ("asin", "acos", "atan", "atan2", "pow", "where", "erf")
 
 
@@ -69,9 +81,7 @@ def _torch() -> SimpleNamespace:
         def call(*arguments: Any) -> Any:
             floats = (a.dtype for a in arguments if isinstance(a, torch.Tensor) and a.is_floating_point())
             dtype = next(floats, torch.float64)
-            return function(
-                *(a if isinstance(a, torch.Tensor) else torch.as_tensor(a, dtype=dtype) for a in arguments)
-            )
+            return function(*(a if isinstance(a, torch.Tensor) else torch.as_tensor(a, dtype=dtype) for a in arguments))
 
         return call
 

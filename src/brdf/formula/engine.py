@@ -15,7 +15,7 @@ from ..parameters import Bound, bound_value
 from . import ops
 from .vec import Vec
 
-SMALL = 10**12
+SMALL = 20_000
 """Pairs below which NumPy is faster than the kernel with its first-call latency."""
 
 LENGTH_TOLERANCE = 1e-3
@@ -43,15 +43,11 @@ def run(reflectance: Any, wi: Vec, wo: Vec, clamp: bool, number: Any = float) ->
         values = reflectance.values
         return bound_value(values[name], number) if name in values else reflectance.textures[name]
 
-    rgb = reflectance_formula(reflectance, lookup)(wi, wo)
+    rgb: Vec = Bound(reflectance, lookup).f(wi, wo)
     if not reflectance.transmits:
         rgb = ops.where((wi.z > 0) & (wo.z > 0), rgb, 0.0 * wi.z)
-    return ops.maximum(rgb, 0.0 * wi.z) if clamp else rgb
-
-
-def reflectance_formula(reflectance: Any, lookup: Any) -> Any:
-    """`f` of the reflectance with its parameters and textures taken from `lookup`."""
-    return Bound(reflectance, lookup).f
+    guarded: Vec = ops.maximum(rgb, 0.0 * wi.z) if clamp else rgb
+    return guarded
 
 
 def check_lengths(wi: Any, wo: Any) -> None:

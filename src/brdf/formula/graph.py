@@ -8,7 +8,7 @@ does nothing (x + 0, 1 * x) and returns the existing node when the same operatio
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Container, Iterable
 from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
@@ -242,15 +242,14 @@ class Graph:
         return result
 
 
-
-def reachable(outputs: Iterable[Expr]) -> Iterator[Expr]:
-    """The nodes the outputs depend on, operands first."""
-    wanted: set[int] = set()
+def reachable(outputs: Iterable[Expr], stop: Container[Expr] = ()) -> list[Expr]:
+    """The nodes the outputs depend on, operands first, without looking behind those in `stop`."""
+    wanted: dict[int, Expr] = {}
     stack = list(outputs)
-    graph = stack[0].graph
     while stack:
         node = stack.pop()
         if node.index not in wanted:
-            wanted.add(node.index)
-            stack.extend(node.args)
-    return (graph.nodes[i] for i in sorted(wanted))
+            wanted[node.index] = node
+            if node not in stop:
+                stack.extend(node.args)
+    return [wanted[index] for index in sorted(wanted)]

@@ -139,12 +139,14 @@ def length(a: Vec) -> Scalar:
 
 def normalize(a: Vec) -> Vec:
     """a over its length; the zero vector stays zero."""
-    return a * (1.0 / sqrt(maximum(dot(a, a), 1e-30)))
+    unit: Vec = a * (1.0 / sqrt(maximum(dot(a, a), 1e-30)))
+    return unit
 
 
 def reflect(w: Vec, h: Vec) -> Vec:
     """w mirrored about the unit vector h, both pointing away from the surface."""
-    return h * (2.0 * dot(w, h)) - w
+    mirrored: Vec = h * (2.0 * dot(w, h)) - w
+    return mirrored
 
 
 def mean(a: Vec) -> Scalar:

@@ -48,46 +48,46 @@ class Vec:
         return f"Vec{self.components!r}"
 
     def __add__(self, other: Any) -> Vec:
-        return elementwise(operator.add, self, other)
+        return _each(operator.add, self, other)
 
     def __radd__(self, other: Any) -> Vec:
-        return elementwise(operator.add, other, self)
+        return _each(operator.add, other, self)
 
     def __sub__(self, other: Any) -> Vec:
-        return elementwise(operator.sub, self, other)
+        return _each(operator.sub, self, other)
 
     def __rsub__(self, other: Any) -> Vec:
-        return elementwise(operator.sub, other, self)
+        return _each(operator.sub, other, self)
 
     def __mul__(self, other: Any) -> Vec:
-        return elementwise(operator.mul, self, other)
+        return _each(operator.mul, self, other)
 
     def __rmul__(self, other: Any) -> Vec:
-        return elementwise(operator.mul, other, self)
+        return _each(operator.mul, other, self)
 
     def __truediv__(self, other: Any) -> Vec:
-        return elementwise(operator.truediv, self, other)
+        return _each(operator.truediv, self, other)
 
     def __rtruediv__(self, other: Any) -> Vec:
-        return elementwise(operator.truediv, other, self)
+        return _each(operator.truediv, other, self)
 
     def __pow__(self, other: Any) -> Vec:
-        return elementwise(operator.pow, self, other)
+        return _each(operator.pow, self, other)
 
     def __neg__(self) -> Vec:
         return Vec(*(-c for c in self.components))
 
     def __lt__(self, other: Any) -> Vec:
-        return elementwise(operator.lt, self, other)
+        return _each(operator.lt, self, other)
 
     def __le__(self, other: Any) -> Vec:
-        return elementwise(operator.le, self, other)
+        return _each(operator.le, self, other)
 
     def __gt__(self, other: Any) -> Vec:
-        return elementwise(operator.gt, self, other)
+        return _each(operator.gt, self, other)
 
     def __ge__(self, other: Any) -> Vec:
-        return elementwise(operator.ge, self, other)
+        return _each(operator.ge, self, other)
 
 
 def elementwise(function: Callable[..., Scalar], *arguments: Any) -> Any:
@@ -95,9 +95,11 @@ def elementwise(function: Callable[..., Scalar], *arguments: Any) -> Any:
 
     Raises ValueError when two vectors differ in length.
     """
+    return _each(function, *arguments) if any(isinstance(a, Vec) for a in arguments) else function(*arguments)
+
+
+def _each(function: Callable[..., Scalar], *arguments: Any) -> Vec:
     lengths = {len(a) for a in arguments if isinstance(a, Vec)}
-    if not lengths:
-        return function(*arguments)
     if len(lengths) > 1:
         raise ValueError(f"vectors of {sorted(lengths)} components do not combine")
     columns = [a.components if isinstance(a, Vec) else (a,) * max(lengths) for a in arguments]

@@ -1,0 +1,125 @@
+"""Compiled evaluation: trace, print, compile once, run on all cores.
+
+A generated module is stored under its content's hash in the user's cache folder (`BRDF_CACHE` overrides it), where
+numba keeps the machine code beside it: a second process compiles nothing. Threads share the kernel, which runs without
+the interpreter lock.
+"""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import importlib.util
+import os
+import sys
+import tempfile
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numba
+import numpy as np
+
+from . import math32, math64
+from .engine import check_lengths
+from .printers.numba import BLOCK, print_kernel
+from .trace import parameter_values, trace
+
+_PER_TASK = 64 * BLOCK
+"""Pairs a thread takes at a time."""
+
+_kernels: dict[tuple[Any, ...], Callable[..., int]] = {}
+
+
+def evaluate(reflectance: Any, wi: Any, wo: Any, clamp: bool) -> Any:
+    """As `engine.evaluate`, compiled. Raises DirectionError."""
+    kernel = kernel_for(reflectance, wi.dtype.name)
+    parameters = np.array(parameter_values(reflectance.values), np.float64)
+    textures = [np.ascontiguousarray(data, np.float32) for data in reflectance.textures.values()]
+    out = np.empty(wi.shape, wi.dtype)
+
+    def run(start: int) -> int:
+        return kernel(wi, wo, parameters, *textures, out, start, min(start + _PER_TASK, len(wi)), clamp)
+
+    starts = range(0, len(wi), _PER_TASK)
+    for bad in map_threads(run, starts):
+        if bad >= 0:
+            check_lengths(wi[bad : bad + BLOCK], wo[bad : bad + BLOCK])
+    return out
+
+
+def map_threads(function: Callable[[int], Any], arguments: Any) -> list[Any]:
+    """`function` of each argument, on all cores; for functions that release the interpreter lock."""
+    if len(arguments) < 2 or thread_count() == 1:
+        return [function(argument) for argument in arguments]
+    return list(_pool().map(function, arguments))
+
+
+def thread_count() -> int:
+    """Threads in use: `BRDF_THREADS`, else the cores this process may run on."""
+    given = os.environ.get("BRDF_THREADS", "")
+    return (
+        max(1, int(given))
+        if given.isdigit()
+        else len(os.sched_getaffinity(0))
+        if hasattr(os, "sched_getaffinity")
+        else os.cpu_count() or 1
+    )
+
+
+@functools.cache
+def _pool() -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(thread_count(), thread_name_prefix="brdf")
+
+
+def kernel_for(reflectance: Any, real: str) -> Callable[..., int]:
+    """The compiled kernel of a reflectance for `real` = "float32" | "float64"."""
+    key = (real, reflectance.structure)
+    if key not in _kernels:
+        source = print_kernel(trace(reflectance), real, has_horizon=not reflectance.transmits)
+        _kernels[key] = _compiled(source)
+    return _kernels[key]
+
+
+@functools.cache
+def _compiled(source: str) -> Callable[..., int]:
+    """The kernel of a generated module, through the cache on disk."""
+    digest = hashlib.sha256((source + _environment()).encode()).hexdigest()[:24]
+    name = f"brdf_kernel_{digest}"
+    path = cache_folder() / f"{name}.py"
+    if not path.exists():
+        handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".tmp")
+        with os.fdopen(handle, "w") as file:
+            file.write(source)
+        os.replace(temporary, path)
+    spec = importlib.util.spec_from_file_location(name, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[name] = module
+    spec.loader.exec_module(module)
+    kernel: Callable[..., int] = module.kernel
+    return kernel
+
+
+def _environment() -> str:
+    """What the machine code depends on beside the source."""
+    parts = [Path(str(module.__file__)).read_text() for module in (math32, math64)]
+    return "".join([numba.__version__, sys.version, *parts])
+
+
+@functools.cache
+def cache_folder() -> Path:
+    """The folder of generated kernels: `BRDF_CACHE`, the user's cache folder, or a temporary one."""
+    roots = [os.environ.get("BRDF_CACHE"), os.environ.get("XDG_CACHE_HOME"), Path.home() / ".cache"]
+    for root in roots:
+        if root:
+            folder = Path(root) / "brdf" / "kernels"
+            try:
+                folder.mkdir(parents=True, exist_ok=True)
+                with tempfile.TemporaryFile(dir=folder):
+                    return folder
+            except OSError:
+                continue
+    return Path(tempfile.mkdtemp(prefix="brdf-kernels-"))

@@ -1,0 +1,1 @@
+"""Printers: one module a target language, each turning a traced program into source text."""
