@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from ..formula import Scalar, Vec, dot, normalize
+from typing import Any
+
+from ..formula import Vec, dot, normalize
 from ..geometry.sampling import Sampler
-from ..parameters import RGB, choice
+from ..parameters import choice
 from .model import Model
+from .terms import ndf as distributions
 from .terms.fresnel import Conductor, Dielectric, Schlick
 from .terms.masking import SmithCorrelated, SmithSeparable
-from .terms.ndf import GGX as GGXDistribution
-from .terms.ndf import Beckmann
+
+DISTRIBUTIONS = {"ggx": distributions.GGX, "beckmann": distributions.Beckmann}
 
 
 class Microfacet(Model):
@@ -21,9 +24,9 @@ class Microfacet(Model):
     parameters are given beside the choices. References: Torrance1967, Walter2007, Heitz2014.
     """
 
-    ndf: str = choice("distribution of facet normals", "ggx", {"ggx": GGXDistribution, "beckmann": Beckmann})
-    masking: str = choice("masking-shadowing", "smith", {"smith": SmithCorrelated, "smith-separable": SmithSeparable})
-    fresnel: str = choice(
+    ndf: Any = choice("distribution of facet normals", "ggx", DISTRIBUTIONS)
+    masking: Any = choice("masking-shadowing", "smith", {"smith": SmithCorrelated, "smith-separable": SmithSeparable})
+    fresnel: Any = choice(
         "Fresnel reflectance", "schlick", {"schlick": Schlick, "dielectric": Dielectric, "conductor": Conductor}
     )
 
@@ -34,9 +37,9 @@ class Microfacet(Model):
     def f(self, wi: Vec, wo: Vec) -> Vec:
         h = normalize(wi + wo)
         D = self.ndf.D(h)
-        G = self.masking.G(self.ndf, wi, wo)
+        visibility = self.masking.visibility(self.ndf, wi, wo)  # G / (cos_i cos_o)
         F = self.fresnel.F(dot(wi, h))
-        return F * (D * G / (4.0 * wi.z * wo.z))
+        return F * (D * visibility / 4.0)
 
     def _make_sampler(self) -> Sampler:
         return self._parts["ndf"].sampler() or super()._make_sampler()
@@ -51,6 +54,6 @@ class GGX(Microfacet):
     Heitz2014, Schlick1994.
     """
 
-    ndf: str = choice("distribution of facet normals", "ggx", {"ggx": GGXDistribution})
-    masking: str = choice("masking-shadowing", "smith", {"smith": SmithCorrelated})
-    fresnel: str = choice("Fresnel reflectance", "schlick", {"schlick": Schlick})
+    ndf: Any = choice("distribution of facet normals", "ggx", {"ggx": distributions.GGX})
+    masking: Any = choice("masking-shadowing", "smith", {"smith": SmithCorrelated})
+    fresnel: Any = choice("Fresnel reflectance", "schlick", {"schlick": Schlick})

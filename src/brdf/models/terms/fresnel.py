@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...formula import Scalar, Vec, saturate, sqrt
+from ...formula import Scalar, Vec, abs, saturate, sqrt, where
 from ...parameters import RGB, Parameterised, number, rgb
 
 
@@ -23,14 +23,19 @@ class Schlick(Fresnel):
 
 
 class Dielectric(Fresnel):
-    """Exact, unpolarised, for a real relative index eta = n_inside / n_outside. Reference: Born1999."""
+    """Exact, unpolarised, for a real relative index eta = n_inside / n_outside. Reference: Born1999.
+
+    With g = eta cos_t: r_s = (cosine - g) / (cosine + g), r_p = (eta^2 cosine - g) / (eta^2 cosine + g).
+    """
 
     eta: Scalar = number("relative refractive index", default=1.5, low=1.0, high=4.0)
 
     def F(self, cosine: Scalar) -> Vec:
-        cos_t = sqrt(1.0 - (1.0 - cosine * cosine) / (self.eta * self.eta))
-        r_s = (cosine - self.eta * cos_t) / (cosine + self.eta * cos_t)
-        r_p = (self.eta * cosine - cos_t) / (self.eta * cosine + cos_t)
+        c = saturate(cosine)
+        eta2 = self.eta * self.eta
+        g = sqrt(eta2 - 1.0 + c * c)
+        r_s = (c - g) / (c + g)
+        r_p = (eta2 * c - g) / (eta2 * c + g)
         reflectance = 0.5 * (r_s * r_s + r_p * r_p)
         return Vec(reflectance, reflectance, reflectance)
 
@@ -38,23 +43,20 @@ class Dielectric(Fresnel):
 class Conductor(Fresnel):
     """Exact, unpolarised, for a complex index eta + i k. Reference: Born1999, in the real form of Lagarde2013."""
 
-    eta: RGB = rgb("refractive index, real part", default=(0.2, 0.92, 1.1), low=0.0, high=20.0)
+    eta: RGB = rgb("refractive index, real part", default=(0.2, 0.92, 1.1), low=1e-3, high=20.0)
     k: RGB = rgb("extinction coefficient", default=(3.91, 2.45, 2.14), low=0.0, high=20.0)
 
     def F(self, cosine: Scalar) -> Vec:
-        cos2 = cosine * cosine
+        c = saturate(cosine)
+        cos2 = c * c
         sin2 = 1.0 - cos2
-        t = self.eta * self.eta - self.k * self.k - sin2
-        a2_plus_b2 = sqrt(t * t + 4.0 * (self.eta * self.eta) * (self.k * self.k))
-        a2 = 0.5 * (a2_plus_b2 + t)
-        a = Vec(*(sqrt(_positive(c)) for c in a2))
-        r_s = (a2_plus_b2 + cos2 - 2.0 * cosine * a) / (a2_plus_b2 + cos2 + 2.0 * cosine * a)
+        eta2, k2 = self.eta * self.eta, self.k * self.k
+        t = eta2 - k2 - sin2
+        a2_plus_b2 = sqrt(t * t + 4.0 * eta2 * k2)
+        # a^2 = (a2_plus_b2 + t) / 2; for negative t the other root of the quadratic avoids the cancellation.
+        larger = 0.5 * (a2_plus_b2 + abs(t)) + 1e-30
+        a = sqrt(where(t < 0.0, eta2 * k2 / larger, larger))
+        r_s = (a2_plus_b2 + cos2 - 2.0 * c * a) / (a2_plus_b2 + cos2 + 2.0 * c * a)
         common = cos2 * a2_plus_b2 + sin2 * sin2
-        mixed = 2.0 * cosine * sin2 * a
+        mixed = 2.0 * c * sin2 * a
         return 0.5 * r_s * (1.0 + (common - mixed) / (common + mixed))
-
-
-def _positive(x: Scalar) -> Scalar:
-    from ...formula import maximum
-
-    return maximum(x, 0.0)

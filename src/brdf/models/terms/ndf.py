@@ -1,11 +1,13 @@
 """Normal distribution functions: how much microsurface faces which way.
 
-`D(h)` [1/sr] integrates, times h.z, to 1 over the hemisphere; `Lambda(w)` is Smith's auxiliary function of a direction.
+`D(h)` [1/sr] integrates, times h.z, to 1 over the hemisphere. `projected_area(w)` [1] is the area that
+the facets facing `w` show it, per area of macrosurface: w.z (1 + Lambda(w)) with Smith's auxiliary function Lambda.
+Unlike Lambda it is finite at the horizon.
 """
 
 from __future__ import annotations
 
-from ...formula import Scalar, Vec, exp, pi, sqrt, where
+from ...formula import Scalar, Vec, exp, maximum, pi, sqrt, where
 from ...geometry.sampling import GGXSampler, Sampler
 from ...parameters import Parameterised, width
 
@@ -24,7 +26,7 @@ class Distribution(Parameterised):
     def D(self, h: Vec) -> Scalar:
         raise NotImplementedError
 
-    def Lambda(self, w: Vec) -> Scalar:
+    def projected_area(self, w: Vec) -> Scalar:
         raise NotImplementedError
 
     def sampler(self) -> Sampler | None:
@@ -39,23 +41,27 @@ class GGX(Distribution):
         stretched = (h.x / self.alpha_x) ** 2 + (h.y / self.alpha_y) ** 2 + h.z**2
         return 1.0 / (pi * self.alpha_x * self.alpha_y * stretched**2)
 
-    def Lambda(self, w: Vec) -> Scalar:
-        a2 = ((w.x * self.alpha_x) ** 2 + (w.y * self.alpha_y) ** 2) / w.z**2
-        return 0.5 * (sqrt(1.0 + a2) - 1.0)
+    def projected_area(self, w: Vec) -> Scalar:
+        return 0.5 * (w.z + sqrt((w.x * self.alpha_x) ** 2 + (w.y * self.alpha_y) ** 2 + w.z**2))
 
     def sampler(self) -> Sampler:
         return GGXSampler(self.alpha_x, self.alpha_y)
 
 
 class Beckmann(Distribution):
-    """Gaussian slopes; Lambda in the rational form of Walter2007 (relative error below 0.35 %)."""
+    """Gaussian slopes; Lambda in the rational form of Walter2007 (relative error of G1 below 0.35 %).
+
+    Reference: Beckmann1963.
+    """
 
     def D(self, h: Vec) -> Scalar:
-        slope2 = ((h.x / self.alpha_x) ** 2 + (h.y / self.alpha_y) ** 2) / h.z**2
-        return exp(-slope2) / (pi * self.alpha_x * self.alpha_y * h.z**4)
+        cos2 = maximum(h.z * h.z, 1e-18)
+        slope2 = ((h.x / self.alpha_x) ** 2 + (h.y / self.alpha_y) ** 2) / cos2
+        return exp(-slope2) / (pi * self.alpha_x * self.alpha_y * cos2 * cos2)
 
-    def Lambda(self, w: Vec) -> Scalar:
-        projected = sqrt((w.x * self.alpha_x) ** 2 + (w.y * self.alpha_y) ** 2)
-        a = w.z / (projected + 1e-12)
-        rational = (1.0 - 1.259 * a + 0.396 * a * a) / (3.535 * a + 2.181 * a * a)
-        return where(a < 1.6, rational, 0.0 * a)
+    def projected_area(self, w: Vec) -> Scalar:
+        spread = sqrt((w.x * self.alpha_x) ** 2 + (w.y * self.alpha_y) ** 2) + 1e-12
+        a = w.z / spread
+        # w.z Lambda(a), Lambda = (1 - 1.259 a + 0.396 a^2) / (3.535 a + 2.181 a^2) for a < 1.6, else 0
+        masked = spread * (1.0 - 1.259 * a + 0.396 * a * a) / (3.535 + 2.181 * a)
+        return w.z + where(a < 1.6, masked, 0.0 * a)
