@@ -212,8 +212,8 @@ def _keys(probabilities: NDArray[np.float64]) -> NDArray[np.float64]:
     """Cumulative probabilities along the last axis plus the index of the row, flat and sorted."""
     rows = probabilities.reshape(-1, probabilities.shape[-1])
     cumulative = np.minimum(np.cumsum(rows, axis=-1), 1)
-    keys: NDArray[np.float64] = (cumulative + np.arange(len(rows))[:, None]).ravel()
-    return keys
+    keys: NDArray[np.float64] = cumulative + np.arange(float(len(rows)))[:, None]
+    return keys.ravel()
 
 
 def _node_directions(grid: _Grid) -> NDArray[np.float64]:
