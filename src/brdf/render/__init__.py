@@ -1,1 +1,21 @@
+"""Pictures of a material: shapes, lights, cameras, and the renderer that runs anywhere."""
 
+from .caption import captioned
+from .cpu import render, render_halves
+from .environment import Environment
+from .image import Image
+from .lights import Directional, Point
+from .mesh import Mesh
+from .scene import Camera
+
+__all__ = [
+    "Camera",
+    "Directional",
+    "Environment",
+    "Image",
+    "Mesh",
+    "Point",
+    "captioned",
+    "render",
+    "render_halves",
+]

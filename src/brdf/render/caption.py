@@ -1,0 +1,73 @@
+"""Words on a picture: a strip below it, and labels on its halves."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .image import Image
+
+PAPER, INK = 0.012, 0.75
+"""Radiance of the strip and of the letters on it."""
+
+
+def captioned(image: Image, caption: str, labels: tuple[str, str] | None = None) -> Image:
+    """`image` with a strip below it that says `caption` (one or more lines), and `labels` at the halves' feet.
+
+    Letters shrink until the longest line fits. The result is linear light like any picture, and is saved like one.
+    """
+    lines = caption.split("\n")
+    size = max(9, round(image.height / 32))
+    font = _fitting(lines, size, image.width * 0.96)
+    step = round(font.size * 1.45)
+    strip = np.full((step * len(lines) + round(font.size * 0.9), image.width), PAPER, np.float32)
+    for number, line in enumerate(lines):
+        middle = round(font.size * 0.45) + step * number + step / 2
+        _write(strip, line, font, (image.width / 2, middle), "mm")
+    pixels = image.pixels.copy()
+    if labels is not None:
+        font = _fitting(list(labels), size, image.width * 0.45)
+        for label, across, anchor in ((labels[0], 0.02, "ls"), (labels[1], 0.98, "rs")):
+            ink = _letters(pixels.shape[:2], label, font, (image.width * across, image.height * 0.97), anchor)
+            pixels += ink[..., None] * (INK - pixels)
+    below = np.repeat(strip[..., None], 3, -1)
+    alpha = None if image.alpha is None else np.concatenate([image.alpha, np.ones_like(strip)])
+    return replace(
+        image,
+        pixels=np.concatenate([pixels, below]),
+        alpha=alpha,
+        metadata={**image.metadata, "Description": caption},
+    )
+
+
+def _fitting(lines: list[str], size: int, width: float) -> Any:
+    """The largest font up to `size` in which every line is at most `width` pixels long."""
+    widest = max(_font(size).getlength(line) for line in lines)
+    return _font(size if widest <= width else max(6, int(size * width / widest)))
+
+
+@cache
+def _font(size: int) -> Any:
+    import matplotlib
+    from PIL import ImageFont
+
+    return ImageFont.truetype(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / "DejaVuSans.ttf", size)
+
+
+def _letters(shape: tuple[int, ...], text: str, font: Any, at: tuple[float, float], anchor: str) -> NDArray[np.float32]:
+    """How much of each pixel the letters cover, (H, W)."""
+    from PIL import Image as Pictures
+    from PIL import ImageDraw
+
+    mask = Pictures.new("L", (shape[1], shape[0]))
+    ImageDraw.Draw(mask).text(at, text, fill=255, font=font, anchor=anchor)
+    return np.asarray(mask, np.float32) / np.float32(255)
+
+
+def _write(strip: NDArray[np.float32], text: str, font: Any, at: tuple[float, float], anchor: str) -> None:
+    strip += _letters(strip.shape, text, font, at, anchor) * (INK - strip)

@@ -1,0 +1,56 @@
+"""From linear radiance to what a screen shows: exposure, tone curve, sRGB."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..color import srgb_encode
+from ..errors import ParameterError, UnknownNameError
+
+Floats = NDArray[np.floating[Any]]
+
+MIDDLE_GREY = 0.18
+
+
+def _clip(x: Floats) -> Floats:
+    return x
+
+
+def _reinhard(x: Floats) -> Floats:
+    """x / (1 + x), scaled so that middle grey stays [Reinhard2002]."""
+    x = x / (1 - MIDDLE_GREY)
+    return x / (1 + x)
+
+
+FILMIC_SCALE = 0.7231708
+"""Solves _filmic(0.18) = 0.18: middle grey stays middle grey."""
+
+
+def _filmic(x: Floats) -> Floats:
+    """A rational fit of the ACES curve [Narkowicz2015]: highlights roll off instead of clipping."""
+    x = x * FILMIC_SCALE
+    return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14)
+
+
+CURVES: dict[str, Callable[[Floats], Floats]] = {"clip": _clip, "reinhard": _reinhard, "filmic": _filmic}
+
+
+def developed(linear: Floats, tone: str = "filmic", exposure: float = 0.0) -> Floats:
+    """Linear radiance -> sRGB values in [0, 1].
+
+    `tone`: "clip" (faithful below 1), "reinhard" or "filmic"; each leaves middle grey (0.18) as it is. `exposure` is
+    in stops.
+    Raises UnknownNameError and ParameterError.
+    """
+    if tone not in CURVES:
+        raise UnknownNameError("tone curve", tone, CURVES)
+    if not np.isfinite(exposure):
+        raise ParameterError(f"exposure must be a finite number of stops, got {exposure!r}")
+    linear = np.asarray(linear)
+    # Beyond 1e4 every curve is white; the bound keeps their squares finite.
+    exposed = np.clip(linear * linear.dtype.type(2.0**exposure), 0, 1e4)
+    return srgb_encode(np.clip(CURVES[tone](exposed), 0, 1))
