@@ -12,9 +12,24 @@ __version__ = "0.1.0"
 
 _NAMES = {
     "Reflectance": "reflectance",
+    "SliceStack": "representations.slice_stack",
+    "Table": "representations.table",
+    "check": "laws",
+    "compare": "metrics",
+    "convert": "conversion",
+    "errors": "errors",
+    "io": "io",
+    "load": "loading",
+    "materials": "materials",
+    "metrics": "metrics",
     "mix": "combinators",
     "models": "models",
+    "plot": "plot",
+    "render": "render",
 }
+"""Public name: the module it lives in, or is."""
+
+__all__ = sorted([*_NAMES, "__version__"])
 
 
 def __getattr__(name: str) -> Any:
@@ -25,4 +40,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *_NAMES])
+    return __all__

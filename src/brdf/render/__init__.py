@@ -1,5 +1,6 @@
 """Pictures of a material: shapes, lights, cameras, and the renderer that runs anywhere."""
 
+from ..callable_module import make_callable
 from .caption import captioned
 from .cpu import render, render_halves
 from .environment import Environment
@@ -19,3 +20,5 @@ __all__ = [
     "render",
     "render_halves",
 ]
+
+make_callable(__name__, render)

@@ -1,0 +1,43 @@
+"""What several verbs take, declared once."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..errors import ParameterError
+
+if TYPE_CHECKING:
+    from ..reflectance import Reflectance
+
+Material = Annotated[
+    str,
+    typer.Argument(
+        metavar="MATERIAL", help="Name, NAME@FIT, file, or MODEL:alpha=0.2,F0=1/.78/.34 (lobes with +, factors with *)."
+    ),
+]
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+
+
+def load(spec: str) -> Reflectance:
+    """`brdf.load`, imported when it is needed."""
+    from ..loading import load
+
+    return load(spec)
+
+
+def parse_size(text: str) -> tuple[int, int]:
+    """`800x600` -> (800, 600). Raises ParameterError."""
+    match = re.fullmatch(r"\s*(\d{1,6})\s*[x×]\s*(\d{1,6})\s*", text)
+    if match is None or min(int(match[1]), int(match[2])) < 1:
+        raise ParameterError(f"--size must be WIDTHxHEIGHT in pixels, both at least 1, as in 800x600; got {text!r}")
+    return int(match[1]), int(match[2])
+
+
+def file_name(m: Reflectance, extension: str) -> Path:
+    """A file in the current folder named after the reflectance."""
+    stem = re.sub(r"[^A-Za-z0-9._@-]+", "-", m.name or type(m).__name__).strip("-.") or "material"
+    return Path(f"{stem[:80]}{extension}")

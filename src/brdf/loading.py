@@ -1,0 +1,99 @@
+"""From what a person writes to a reflectance: a material's name, a file, or a model with its parameters."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+from typing import Any
+
+from . import io, materials, models
+from .combinators import add, scaled
+from .errors import FileError, ParameterError, UnknownNameError
+from .reflectance import Reflectance
+
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_SCALED = re.compile(rf"\s*({NUMBER}(?:/{NUMBER}/{NUMBER})?)\s*\*\s*(.*)", re.DOTALL)
+_PLUS = re.compile(r"(?<![\d.][eE])\+")
+"""A plus between lobes, not the one in 1e+3."""
+
+
+def load(spec: str | os.PathLike[str]) -> Reflectance:
+    """A reflectance from its description.
+
+    `spec` is one of
+      - the name of a shipped material, `gold-metallic-paint`, or one published fit of it, `NAME@FIT`;
+      - a path to a file of any format of `brdf.io.formats()`, recognised by its content;
+      - a model with parameters, `GGX:alpha=0.2,F0=1/.78/.34` (colours with slashes, choices by name);
+      - a sum of those with `+`, each with a factor if wanted: `Lambertian:albedo=.3 + 0.5*GGX:alpha=.1`.
+    A name wins over a file that is called the same; write `./NAME` for the file. Raises UnknownNameError, FileError,
+    UnknownFormatError, CorruptFileError, ParameterError.
+    """
+    if isinstance(spec, os.PathLike):
+        return io.read(spec)
+    if os.path.isfile(spec) and not _is_name(spec):
+        return io.read(spec)
+    first, *others = [_term(term, spec) for term in _PLUS.split(spec)]
+    for lobe in others:
+        first = add(first, lobe)
+    return first.named(spec.strip()) if others else first
+
+
+def _is_name(spec: str) -> bool:
+    return spec in materials.names() or spec in models.names()
+
+
+def _term(term: str, spec: str) -> Reflectance:
+    """One lobe: `[FACTOR*]ATOM`."""
+    if not term.strip():
+        raise ParameterError(f"{spec!r} has an empty term; write lobes as GGX:alpha=0.2 + Lambertian:albedo=0.5")
+    match = _SCALED.fullmatch(term)
+    if match is None:
+        return _atom(term.strip())
+    factor = _value(match[1])
+    return scaled(_atom(match[2].strip()), factor)
+
+
+def _atom(text: str) -> Reflectance:
+    """A name, a path, or `MODEL:parameters`."""
+    model_names = {name.lower() for name in models.names()}
+    head, colon, parameters = text.partition(":")
+    if head.strip().lower() in model_names:
+        return _model(head.strip(), parameters)
+    name, at, fit = text.partition("@")
+    if name in materials.names():
+        return materials.get(name, fit) if at else materials.get(name)
+    if os.path.exists(text):
+        return io.read(text)
+    if Path(text).suffix or os.sep in text or "/" in text:
+        raise FileError(text, "no such file; check the path.")
+    if colon:
+        raise UnknownNameError("model", head, models.names())
+    raise UnknownNameError("material", name, [*materials.names(), *models.names()], "see `brdf list materials`")
+
+
+def _model(name: str, parameters: str) -> Reflectance:
+    given: dict[str, Any] = {}
+    for item in parameters.split(",") if parameters.strip() else []:
+        key, equals, value = (part.strip() for part in item.partition("="))
+        if not equals or not key or not value:
+            raise ParameterError(
+                f"{name}: {item.strip()!r} is not PARAMETER=VALUE, as in {name}:alpha=0.2,F0=1/.78/.34"
+            )
+        if key in given:
+            raise ParameterError(f"{name}: {key} is given twice")
+        given[key] = _value(value)
+    try:
+        made: Reflectance = models.get(name)(**given)
+    except ParameterError as error:
+        raise ParameterError(f"{name}: {error}") from None
+    return made.named(f"{made.name}:{parameters.strip()}" if given else made.name)
+
+
+def _value(text: str) -> Any:
+    """A number, numbers between slashes, or, when it is neither, the text itself (the name of a choice)."""
+    try:
+        numbers = tuple(float(part) for part in text.split("/"))
+    except ValueError:
+        return text
+    return numbers[0] if len(numbers) == 1 else numbers
