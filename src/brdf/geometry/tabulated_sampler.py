@@ -88,13 +88,9 @@ class TabulatedSampler:
         grid, first, second = self._grid, u[:, 0], u[:, 1]
         node = np.zeros(len(wo), np.intp)
         for lower, upper, weight, stride in self._neighbours(wo):
-            # each choice leaves a uniform number behind
-            up = first < weight
-            first = np.where(up, first / np.where(up, weight, 1), (first - weight) / np.where(up, 1, 1 - weight))
+            up, first = _choice(first, weight)
             node += np.where(up, upper, lower) * stride
-        share = table.shares[node]
-        diffuse = first < share
-        first = np.where(diffuse, first / share, (first - share) / (1 - share)).clip(0, np.nextafter(1, 0))
+        diffuse, first = _choice(first, table.shares[node])
 
         ring, along = _inverted(table.rings, node, first, grid.theta_h)
         sector, around = _inverted(table.sectors, ring, second, grid.phi_h)
@@ -158,6 +154,13 @@ class TabulatedSampler:
 def _blocks(count: int) -> Iterator[slice]:
     for start in range(0, count, BLOCK):
         yield slice(start, start + BLOCK)
+
+
+def _choice(u: Floats, share: Floats) -> tuple[NDArray[np.bool_], Floats]:
+    """What happens with probability `share` (N,), decided by `u` (N,) in [0, 1), and the uniform numbers left over."""
+    happens = u < share
+    left = (u - np.where(happens, 0, share)) / np.where(happens, share, 1 - share)
+    return happens, left.clip(0, np.nextafter(1, 0))
 
 
 def _azimuth(w: Floats) -> tuple[Floats, Floats]:

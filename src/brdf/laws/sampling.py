@@ -10,9 +10,12 @@ from .probes import place, viewers
 from .result import LawResult, law
 
 THETA_DEGREES = (0.0, 15.0, 45.0, 70.0, 85.0)
-SAMPLES = 100_000
+SAMPLES = 60_000
 SIGNIFICANCE = 1e-3
 """Chance that a sampler without fault is accused, over all viewing directions together."""
+
+CERTAIN = 3.0
+"""Errors of the integral that the deviation expected by chance, the root of a count, has to exceed."""
 
 SMALLEST = 10.0
 """Expected samples below which a cell is pooled with others: the test's statistic needs that many."""
@@ -35,13 +38,19 @@ def sampling(reflectance: Reflectance) -> LawResult:
 
 
 def _counts(reflectance: Reflectance, viewer: Floats, seed: int) -> tuple[Floats, Floats]:
-    """Expected and observed numbers of samples, the last entry for those outside the domain of the density."""
+    """Expected and observed numbers of samples in the cells.
+
+    The last entry is for what lies outside the domain of the density, unless the integral is too uncertain to say how
+    much that should be.
+    """
     drawn = reflectance.sample(viewer, np.random.default_rng(seed).random((SAMPLES, 2)))
     smooth = drawn.wi[~drawn.is_delta]
     cells = cells_of(reflectance, viewer, smooth)
-    leftover = len(smooth) - SAMPLES * cells.probability.sum()
-    expected = np.append(cells.probability * SAMPLES, max(leftover, 0.0))
-    return expected, np.append(cells.counts, len(smooth) - cells.counts.sum())
+    expected, outside = SAMPLES * cells.probability, len(smooth) - cells.counts.sum()
+    leftover = len(smooth) - expected.sum()
+    if max(leftover, outside) < (CERTAIN * SAMPLES * cells.error) ** 2:
+        return expected, cells.counts.astype(np.float64)
+    return np.append(expected, max(leftover, 0.0)), np.append(cells.counts, float(outside))
 
 
 def cells_of(reflectance: Reflectance, viewer: Floats, samples: Floats) -> Cells:
@@ -53,7 +62,7 @@ def cells_of(reflectance: Reflectance, viewer: Floats, samples: Floats) -> Cells
 def chi_squared_p(expected: Floats, observed: Floats) -> float:
     """The p-value of observed against expected counts (C,); cells that expect fewer than 10 are pooled.
 
-    0 where samples lie in cells of which the density says that there are none.
+    0 where there are samples and none are expected at all.
     """
     from scipy.special import gammaincc
 
