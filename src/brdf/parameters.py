@@ -20,7 +20,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import ParameterError, UnknownNameError
-from .formula.vec import Vec
 
 Value = float | NDArray[np.float64]
 RGB = Any
@@ -96,7 +95,7 @@ class Choice:
         return self if owner is None else owner._chosen[self.name]
 
     def validated(self, name: str, value: Any) -> str:
-        if value not in self.options:
+        if not isinstance(value, str) or value not in self.options:
             raise UnknownNameError(name, str(value), self.options)
         return str(value)
 
@@ -209,8 +208,26 @@ class Parameterised:
         return (type(self), *self._chosen.items(), *self._values, *parts)
 
     def replaced(self, **changes: Any) -> Any:
-        """A copy with other values."""
-        return type(self)(**{**self._chosen, **self.values, **changes})
+        """A copy with other values.
+
+        Values that a change leaves without effect go: those of a part that is chosen anew, a leader's when all its
+        followers are given (`alpha` beside `alpha_x` and `alpha_y`), the followers' when their leader is given.
+        """
+        kept = dict(self._values)
+        for name, part in self._parts.items():
+            if name not in changes:
+                kept |= part.values
+        declared = self.declarations()
+        followers: dict[str, list[str]] = {}
+        for name, parameter in declared.items():
+            if parameter.follows:
+                followers.setdefault(parameter.follows, []).append(name)
+        for leader, names in followers.items():
+            if leader in changes:
+                kept = {k: v for k, v in kept.items() if k not in names}
+            elif all(name in changes or name in kept for name in names):
+                kept.pop(leader, None)
+        return type(self)(**{**self._chosen, **kept, **changes})
 
     def __getattr__(self, name: str) -> Any:
         if not name.startswith("_"):
@@ -223,45 +240,3 @@ class Parameterised:
         shown = [f"{k}={v!r}" for k, v in self._chosen.items() if len(self._choices[k].options) > 1]
         shown += [f"{k}={_plain(np.asarray(v))}" for k, v in self.values.items()]
         return f"{type(self).__name__}({', '.join(shown)})"
-
-
-class Bound:
-    """A parameterised object as its formula sees it: parameters are symbols or arrays, everything else as it is.
-
-    `lookup(path)` gives the value of a parameter or texture by full name; the object's formulas run with a `Bound` as
-    their `self`, so that one text serves every backend.
-    """
-
-    def __init__(self, target: Any, lookup: Any, prefix: str = "") -> None:
-        self._target, self._lookup, self._prefix = target, lookup, prefix
-
-    def __getattr__(self, name: str) -> Any:
-        target = self._target
-        parts = getattr(target, "_parts", {})
-        if name in parts:
-            return Bound(parts[name], self._lookup, self._prefix)
-        all_declared = getattr(type(target), "_declared", {})
-        declared = all_declared.get(name)
-        if declared is not None:
-            if name not in target._values and declared.follows is not None:
-                name = declared.follows
-            return self._lookup(self._prefix + name)
-        if name in getattr(target, "textures", {}) or name in getattr(target, "values", {}):
-            return self._lookup(self._prefix + name)
-        children = getattr(target, "children", {})
-        if name in children:
-            return Bound(children[name], self._lookup, f"{self._prefix}{name}_")
-        attribute = getattr(type(target), name, None)
-        if callable(attribute) and hasattr(attribute, "__get__"):
-            return attribute.__get__(self)  # a method of the formula: it runs with the bound self, too
-        for part in parts.values():
-            if name in part.declarations():
-                return getattr(Bound(part, self._lookup, self._prefix), name)
-        return getattr(target, name)
-
-
-def bound_value(value: Value, number_type: Any) -> Any:
-    """A parameter's value as a formula takes it: a scalar of the wanted type, or a `Vec` of them."""
-    if isinstance(value, float):
-        return number_type(value)
-    return Vec(*map(number_type, value))

@@ -17,7 +17,7 @@ from .geometry.directions import from_half_difference, from_spherical
 from .reflectance import Reflectance
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure, FigureBase
+    from matplotlib.figure import FigureBase
 
 WIDTH = 6.0
 """Inches; at 100 dpi this is the page's 600 pixels."""
@@ -37,7 +37,7 @@ LOBE_DECADES, SLICE_DECADES = 6, 4
 LEGEND: dict[str, Any] = {"fontsize": 9, "title_fontsize": 9, "frameon": False}
 
 
-def lobes(m: Reflectance, angles: Sequence[float] = (0, 30, 60, 80), figure: FigureBase | None = None) -> Figure:
+def lobes(m: Reflectance, angles: Sequence[float] = (0, 30, 60, 80), figure: FigureBase | None = None) -> FigureBase:
     """f in the plane of incidence for light from several polar `angles` [degrees], as polar curves.
 
     The radius is the luminance of f [1/sr], logarithmic. Light comes from the left, the mirror direction is to the
@@ -73,7 +73,7 @@ def lobes(m: Reflectance, angles: Sequence[float] = (0, 30, 60, 80), figure: Fig
     return drawn
 
 
-def slices(m: Reflectance, phi_d: float = 90.0, size: int = 192, figure: FigureBase | None = None) -> Figure:
+def slices(m: Reflectance, phi_d: float = 90.0, size: int = 192, figure: FigureBase | None = None) -> FigureBase:
     """f over half and difference angle at one azimuth `phi_d` [degrees]: in colour, and its luminance on a log scale.
 
     theta_h runs to the right, spread by a square root so that narrow highlights show; theta_d runs up. Below the
@@ -111,7 +111,7 @@ def slices(m: Reflectance, phi_d: float = 90.0, size: int = 192, figure: FigureB
     return drawn
 
 
-def albedo(m: Reflectance, samples: int = 4096, figure: FigureBase | None = None) -> Figure:
+def albedo(m: Reflectance, samples: int = 4096, figure: FigureBase | None = None) -> FigureBase:
     """Directional albedo over the polar angle of the light, each channel with twice its estimated error as a band.
 
     Where the line at 1 is crossed, more light leaves than arrives. An anisotropic reflectance is lit along its tangent.
@@ -142,7 +142,7 @@ def albedo(m: Reflectance, samples: int = 4096, figure: FigureBase | None = None
     return drawn
 
 
-def overview(m: Reflectance) -> Figure:
+def overview(m: Reflectance) -> FigureBase:
     """Lobes, slices and albedo on one page."""
     page = _figure(None, sum(PAGE_HEIGHTS))
     page.suptitle(_name(m), fontsize=12, parse_math=False)

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import DirectionError
-from ..parameters import Bound, bound_value
 from . import ops
+from .bound import Bound, bound_value
 from .vec import Vec
 
 SMALL = 20_000

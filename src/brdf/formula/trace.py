@@ -14,7 +14,7 @@ from types import CodeType, FrameType
 from typing import Any
 
 from ..errors import FormulaError
-from ..parameters import Bound
+from .bound import Bound
 from .graph import Expr, Graph, TextureRef
 from .vec import Vec
 
