@@ -1,1 +1,7 @@
+"""Files of other programs and of this package: one format a file, chosen by content. The folder is the list."""
 
+from __future__ import annotations
+
+from .registry import Format, FormatInfo, format_of, formats, read, write
+
+__all__ = ["Format", "FormatInfo", "format_of", "formats", "read", "write"]

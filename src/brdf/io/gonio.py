@@ -1,0 +1,105 @@
+"""Text tables of a goniometer, as the Cornell set of paints has them.
+
+Comments run from "#" to the end of the line. First the number of wavelengths, then the wavelengths (nm), then
+one line a measurement: theta_i phi_i theta_o phi_o in radians and the BRDF [1/sr] at each wavelength.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import CorruptFileError, ParameterError
+from ..geometry.directions import from_spherical
+from ..reflectance import Reflectance
+from ..representations.scattered import Scattered
+from .registry import Format
+
+MOST_WAVELENGTHS = 2000
+"""More than any instrument gives; a larger number is a broken file."""
+
+_TOLERANCE = 1e-3
+"""By how much a zenith angle may exceed a right angle, radians (rounding in the file)."""
+
+
+def recognises(head: bytes, size: int) -> bool:
+    """The first line beside comments holds one whole number alone."""
+    if b"\0" in head:
+        return False
+    contents = (line.partition(b"#")[0].split() for line in head.splitlines())
+    first = next((tokens for tokens in contents if tokens), [])
+    return len(first) == 1 and first[0].isdigit()
+
+
+def read(path: Path) -> Reflectance:
+    """The file as a `Scattered`. Raises CorruptFileError, which names the line."""
+    wavelengths, angles, values = read_rows(path)
+    wi, wo = (from_spherical(angles[:, k], angles[:, k + 1]) for k in (0, 2))
+    try:
+        made = Scattered.from_samples(wi, wo, values, wavelengths)
+    except ParameterError as error:
+        raise CorruptFileError(path, f"{error}.") from None
+    return made.named(path.stem, f"goniometer file {path.name}, {len(values)} measurements")
+
+
+def read_rows(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Wavelengths (W,) in nm, angles (N, 4) in radians (theta_i, phi_i, theta_o, phi_o), values (N, W) in 1/sr.
+
+    Raises CorruptFileError, which names the line.
+    """
+    with path.open(encoding="ascii", errors="replace") as file:
+        lines = _numbers(path, enumerate(file, start=1))
+        number, first = next(lines, (1, []))
+        if len(first) != 1 or not (first[0].is_integer() and 1 <= first[0] <= MOST_WAVELENGTHS):
+            wanted = f"the number of wavelengths, 1 to {MOST_WAVELENGTHS}"
+            raise CorruptFileError(path, f"line {number} must hold {wanted}.")
+        count = int(first[0])
+        wavelengths: list[float] = []
+        while len(wavelengths) < count:
+            number, more = next(lines, (number, []))
+            wavelengths += more
+            if not more or len(wavelengths) > count:
+                found = f"{len(wavelengths)} of {count} wavelengths are there"
+                raise CorruptFileError(path, f"line {number}: {found}; fetch the file again.")
+        rows = [_checked(path, number, row, count) for number, row in lines]
+    if not rows:
+        raise CorruptFileError(path, f"holds no measurement after line {number}; fetch the file again.")
+    table = np.array(rows)
+    return np.array(wavelengths), table[:, :4], table[:, 4:]
+
+
+def _numbers(path: Path, lines: Iterator[tuple[int, str]]) -> Iterator[tuple[int, list[float]]]:
+    """The lines that hold numbers: line number and the numbers. Raises CorruptFileError."""
+    for number, line in lines:
+        tokens = line.partition("#")[0].split()
+        if not tokens:
+            continue
+        try:
+            values = [float(token) for token in tokens]
+        except ValueError:
+            raise CorruptFileError(path, f"line {number} must hold numbers, got {line.strip()[:40]!r}.") from None
+        if not all(map(math.isfinite, values)):
+            raise CorruptFileError(path, f"line {number} holds NaN or infinity.")
+        yield number, values
+
+
+def _checked(path: Path, number: int, row: list[float], count: int) -> list[float]:
+    if len(row) != 4 + count:
+        wanted = f"4 angles and {count} values"
+        raise CorruptFileError(path, f"line {number} holds {len(row)} numbers, not {wanted}; fetch the file again.")
+    if not all(0 <= theta <= math.pi / 2 + _TOLERANCE for theta in (row[0], row[2])):
+        raise CorruptFileError(path, f"line {number}: zenith angles must lie in 0 to pi/2 radians.")
+    return row
+
+
+FORMAT = Format(
+    "goniometer text",
+    (".brdf",),
+    "table of measured spectra at pairs of directions, as in the Cornell set; read as isotropic",
+    recognises,
+    read,
+)

@@ -1,0 +1,129 @@
+"""Which formats there are, which one a file is in, reading and writing by it.
+
+A module of this folder enters its format by defining `FORMAT`. A file is recognised by its content; its
+extension decides only between formats that both accept the content, and for formats without a signature of
+their own.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import os
+import pkgutil
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from ..errors import CorruptFileError, FileError, UnknownFormatError
+from ..reflectance import Reflectance
+
+HEAD_BYTES = 8192
+"""How much of a file the formats may look at to recognise it."""
+
+
+@dataclass(frozen=True)
+class Format:
+    """One file format: how it is recognised, read and written."""
+
+    name: str
+    extensions: tuple[str, ...]
+    """Lower case, with the dot; the first is the usual one."""
+    doc: str
+    """One line."""
+    recognises: Callable[[bytes, int], bool]
+    """(the first bytes, size of the file) -> whether the content is in this format."""
+    reader: Callable[[Path], Reflectance] | None = None
+    writer: Callable[[Reflectance, Path], None] | None = None
+    has_signature: bool = True
+    """Without one, a file that nothing recognises is still read by its extension, so that the error names the fault."""
+
+
+class FormatInfo(NamedTuple):
+    """What `formats` lists."""
+
+    name: str
+    extensions: tuple[str, ...]
+    reads: bool
+    writes: bool
+    doc: str
+
+
+@functools.cache
+def _all() -> tuple[Format, ...]:
+    package = importlib.import_module(__package__)
+    modules = [importlib.import_module(f"{__package__}.{m.name}") for m in pkgutil.iter_modules(package.__path__)]
+    found = [module.FORMAT for module in modules if hasattr(module, "FORMAT")]
+    return tuple(sorted(found, key=lambda f: f.name))
+
+
+def formats() -> list[FormatInfo]:
+    """Every format, by name."""
+    return [FormatInfo(f.name, f.extensions, f.reader is not None, f.writer is not None, f.doc) for f in _all()]
+
+
+def read(path: str | os.PathLike[str]) -> Reflectance:
+    """The reflectance in a file of any known format.
+
+    Its `name` is the file's stem unless the file holds one, its `source` says which file it was. Raises
+    FileError (missing, a folder, not readable), UnknownFormatError (content of no known format),
+    CorruptFileError (broken content).
+    """
+    path = Path(path)
+    format_ = format_of(path)
+    assert format_.reader is not None
+    try:
+        return format_.reader(path)
+    except OSError as error:
+        raise FileError(path, f"cannot be read ({error.strerror or error}).") from None
+
+
+def write(reflectance: Reflectance, path: str | os.PathLike[str]) -> None:
+    """Write in the format of the path's extension; the file is replaced whole or not at all.
+
+    Raises UnknownFormatError for an extension that no format writes, FileError when the place cannot be
+    written, ReflectanceError when the format cannot hold this reflectance.
+    """
+    path = Path(path)
+    extension = path.suffix.lower()
+    writers = [f for f in _all() if f.writer is not None]
+    for format_ in writers:
+        if extension in format_.extensions and format_.writer is not None:
+            return format_.writer(reflectance, path)
+    given = f"no format is written with the extension {extension!r}" if extension else "the name has no extension"
+    known = ", ".join(f"{f.extensions[0]} ({f.name})" for f in writers)
+    raise UnknownFormatError(path, f"{given}; written: {known}.")
+
+
+def format_of(path: str | os.PathLike[str]) -> Format:
+    """The format that reads the file, by its content. Raises as `read`."""
+    path = Path(path)
+    if path.is_dir():
+        raise FileError(path, "is a folder; give a file.")
+    if not path.exists():
+        raise FileError(path, "no such file; check the path.")
+    if not path.is_file():
+        raise FileError(path, "is not a regular file; copy its content to one first.")
+    try:
+        size = path.stat().st_size
+        with path.open("rb") as file:
+            head = file.read(HEAD_BYTES)
+    except OSError as error:
+        raise FileError(path, f"cannot be read ({error.strerror}).") from None
+    if not head:
+        raise CorruptFileError(path, "is empty (0 bytes); fetch or write it again.")
+
+    readers = [f for f in _all() if f.reader is not None]
+    by_content = [f for f in readers if f.recognises(head, size)]
+    by_extension = [f for f in readers if path.suffix.lower() in f.extensions]
+    for format_ in by_content:
+        if len(by_content) == 1 or format_ in by_extension:
+            return format_
+    if by_content:
+        return by_content[0]
+    for format_ in by_extension:
+        if not format_.has_signature:
+            return format_
+    known = ", ".join(f"{f.name} ({' '.join(f.extensions)})" for f in readers)
+    raise UnknownFormatError(path, f"its content is of no known format; read: {known}.")
