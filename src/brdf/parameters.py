@@ -146,6 +146,9 @@ class Parameterised:
         own = vars(cls)
         cls._declared = cls._declared | {k: v for k, v in own.items() if isinstance(v, Parameter)}
         cls._choices = cls._choices | {k: v for k, v in own.items() if isinstance(v, Choice)}
+        for name in [k for k, v in own.items() if isinstance(v, Parameter)]:
+            if any(callable(vars(base).get(name)) for base in cls.__mro__[1:]):
+                delattr(cls, name)  # a method of the contract (`albedo`) stays callable; the value is in `values`
 
     def __init__(self, **given: Any) -> None:
         self._chosen = {name: c.validated(name, given.pop(name, c.default)) for name, c in self._choices.items()}

@@ -1,0 +1,171 @@
+"""Declared parameters: what is accepted, what is refused and with which words, what follows what."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from brdf.errors import ParameterError, UnknownNameError
+from brdf.models import GGX, SGD, Lambertian, Microfacet, OrenNayar
+from brdf.models.terms.ndf import Distribution
+from brdf.parameters import Parameter, Parameterised, number, rgb, width
+
+
+class Lobe(Parameterised):
+    """Two widths after a leader, a colour and a bare number."""
+
+    alpha = width("width", default=0.2)
+    alpha_x = width("width along x", follows="alpha")
+    alpha_y = width("width along y", follows="alpha")
+    tint = rgb("colour", default=(0.1, 0.2, 0.3), low=0.0)
+    order = number("order", default=2.0, low=-1.0, high=5.0, unit="1/m")
+
+
+def test_defaults_and_types() -> None:
+    lobe = Lobe()
+    assert lobe.alpha == 0.2
+    assert type(lobe.order) is float
+    assert lobe.tint.dtype == np.float64
+    np.testing.assert_array_equal(lobe.tint, [0.1, 0.2, 0.3])
+    assert list(lobe.values) == ["alpha", "tint", "order"]
+
+
+def test_one_number_means_all_three() -> None:
+    np.testing.assert_array_equal(Lobe(tint=0.7).tint, [0.7, 0.7, 0.7])
+    np.testing.assert_array_equal(Lobe(tint=np.float32(0.5)).tint, [0.5, 0.5, 0.5])
+
+
+def test_values_cannot_be_changed_in_place() -> None:
+    given = np.array([0.1, 0.2, 0.3])
+    lobe = Lobe(tint=given)
+    given[0] = 9
+    assert lobe.tint[0] == 0.1
+    with pytest.raises(ValueError, match="read-only"):
+        lobe.tint[0] = 0.5
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"order": 5.5}, r"order must lie in \[-1, 5\], got 5.5"),
+        ({"order": -2}, r"order must lie in \[-1, 5\], got -2"),
+        ({"order": float("nan")}, r"order must lie in \[-1, 5\], got nan"),
+        ({"tint": (0.1, float("nan"), 0.3)}, r"tint must lie in \[0, inf\], got \(0.1, nan, 0.3\)"),
+        ({"tint": (0.1, -0.2, 0.3)}, r"tint must lie in \[0, inf\], got \(0.1, -0.2, 0.3\)"),
+        ({"tint": (0.1, 0.2)}, r"tint must be a number or 3 numbers, got shape \(2,\)"),
+        ({"tint": np.ones((3, 3))}, r"tint must be a number or 3 numbers, got shape \(3, 3\)"),
+        ({"tint": "red"}, "tint must be a number or 3 numbers, got 'red'"),
+        ({"tint": [[1, 2], [3]]}, r"tint must be a number or 3 numbers, got \[\[1, 2\], \[3\]\]"),
+        ({"order": (1, 2, 3)}, r"order must be a number, got shape \(3,\)"),
+        ({"order": 1j}, "order must be a number, got 1j"),
+        ({"alpha": 0.0}, r"alpha must lie in \[0.0001, 1\], got 0"),
+        ({"alpha": 0.1, "alpha_x": 0.2, "alpha_y": 0.3}, "alpha has no effect beside alpha_x and alpha_y"),
+    ],
+)
+def test_refusals(given: dict[str, object], message: str) -> None:
+    with pytest.raises(ParameterError, match=f"^{message}$"):
+        Lobe(**given)
+
+
+def test_infinity_lies_within_open_bounds_only() -> None:
+    with pytest.raises(ParameterError, match="order must lie in"):
+        Lobe(order=float("inf"))
+
+
+def test_unknown_parameter_offers_the_nearest() -> None:
+    with pytest.raises(UnknownNameError, match=r"^unknown parameter of Lobe 'alpa': did you mean 'alpha'"):
+        Lobe(alpa=0.1)
+    with pytest.raises(UnknownNameError, match=r"^unknown parameter of Lambertian 'x': known: albedo.$"):
+        Lambertian(x=1)
+
+
+def test_followers_take_the_leader_s_value() -> None:
+    assert (Lobe(alpha=0.4).alpha_x, Lobe(alpha=0.4).alpha_y) == (0.4, 0.4)
+    half = Lobe(alpha=0.4, alpha_x=0.1)
+    assert (half.alpha_x, half.alpha_y) == (0.1, 0.4)
+    both = Lobe(alpha_x=0.1, alpha_y=0.3)
+    assert both.values.keys() == {"alpha_x", "alpha_y", "tint", "order"}
+    with pytest.raises(AttributeError, match="alpha"):
+        _ = both.alpha
+
+
+def test_isotropy_follows_the_widths() -> None:
+    assert GGX(alpha=0.3).isotropic
+    assert GGX(alpha_x=0.3, alpha_y=0.3).isotropic
+    assert not GGX(alpha=0.3, alpha_x=0.1).isotropic
+
+
+def test_parts_bring_their_parameters() -> None:
+    m = Microfacet(ndf="beckmann", alpha=0.3, fresnel="conductor", k=3.0)
+    assert m.choices == {"ndf": "beckmann", "masking": "smith", "fresnel": "conductor"}
+    assert m.ndf == "beckmann"
+    assert m.alpha == m.alpha_x == 0.3
+    np.testing.assert_array_equal(m.k, [3, 3, 3])
+    assert set(m.values) == {"alpha", "eta", "k"}
+    assert set(m.declarations()) == {"alpha", "alpha_x", "alpha_y", "eta", "k"}
+
+
+def test_parameters_of_the_other_choice() -> None:
+    with pytest.raises(ParameterError, match=r"^k has no effect with fresnel='schlick'; it belongs to fresnel='conduc"):
+        Microfacet(k=3.0)
+    with pytest.raises(
+        ParameterError, match=r"^F0 has no effect with fresnel='dielectric'; it belongs"
+    ):
+        Microfacet(fresnel="dielectric", F0=0.04)
+
+
+@pytest.mark.parametrize("wrong", ["gx", 3, None, ["ggx"]])
+def test_unknown_option(wrong: object) -> None:
+    with pytest.raises(UnknownNameError, match=r"^unknown ndf "):
+        Microfacet(ndf=wrong)
+
+
+def test_replaced_values() -> None:
+    m = SGD(kd=0.3)
+    changed = m.replaced(kd=(0.1, 0.2, 0.3), p=0.7)
+    np.testing.assert_array_equal(changed.kd, [0.1, 0.2, 0.3])
+    np.testing.assert_array_equal(changed.p, 0.7)
+    np.testing.assert_array_equal(changed.K, m.K)
+    np.testing.assert_array_equal(m.kd, 0.3)
+    with pytest.raises(ParameterError, match="kd must lie in"):
+        m.replaced(kd=2)
+
+
+def test_replaced_leaders_and_followers() -> None:
+    assert GGX(alpha=0.2).replaced(alpha_x=0.1, alpha_y=0.3).values.keys() == {"alpha_x", "alpha_y", "F0"}
+    assert GGX(alpha_x=0.1, alpha_y=0.3).replaced(alpha=0.2).alpha_x == 0.2
+    assert GGX(alpha=0.1, alpha_x=0.3).replaced(alpha_y=0.2).values.keys() == {"alpha_x", "alpha_y", "F0"}
+    assert GGX(alpha_x=0.1, alpha_y=0.3).replaced(alpha_y=0.2).alpha_x == 0.1
+    assert GGX(alpha=0.1).replaced(alpha_x=0.3).alpha_y == 0.1
+
+
+def test_replaced_choice_forgets_the_old_part_and_keeps_the_others() -> None:
+    m = Microfacet(alpha=0.3, F0=0.9).replaced(fresnel="dielectric", eta=1.7)
+    assert (m.alpha, m.eta) == (0.3, 1.7)
+    assert OrenNayar(sigma=0.7).replaced(interreflection="included").sigma == 0.7
+
+
+def test_structure_tells_formulas_apart() -> None:
+    assert GGX(alpha=0.2).structure == GGX(alpha=0.3).structure
+    assert GGX(alpha=0.2).structure != GGX(alpha_x=0.2, alpha_y=0.3).structure
+    assert Microfacet().structure != Microfacet(fresnel="dielectric").structure
+    assert OrenNayar().structure != OrenNayar(interreflection="included").structure
+
+
+def test_repr_shows_choices_and_values() -> None:
+    assert repr(Lambertian(albedo=(0.1, 0.2, 0.3))) == "Lambertian(albedo=(0.1, 0.2, 0.3))"
+    assert repr(GGX(alpha=0.2, F0=1.0)) == "GGX(alpha=0.2, F0=(1, 1, 1))"
+    shown = repr(Microfacet(ndf="beckmann"))
+    assert shown == "Microfacet(ndf='beckmann', masking='smith', fresnel='schlick', alpha=0.2, F0=(0.04, 0.04, 0.04))"
+
+
+def test_declarations_are_documented() -> None:
+    assert isinstance(Lobe.order, Parameter)
+    assert (Lobe.order.unit, Lobe.order.low, Lobe.order.high, Lobe.order.name) == ("1/m", -1.0, 5.0, "order")
+    assert Distribution.alpha_x.follows == "alpha"
+
+
+def test_a_parameter_does_not_hide_a_method() -> None:
+    for m in (Lambertian(albedo=0.3), OrenNayar(albedo=0.3, sigma=0.0)):
+        np.testing.assert_array_equal(m.values["albedo"], 0.3)
+        np.testing.assert_allclose(m.albedo([0.0, 0.6, 0.8]), 0.3, rtol=1e-6)
