@@ -17,13 +17,13 @@ PAPER, INK = 0.012, 0.75
 
 
 def captioned(image: Image, caption: str, labels: tuple[str, str] | None = None) -> Image:
-    """`image` with a strip below it that says `caption` (one or more lines), and `labels` at the halves' feet.
+    """`image` with a strip below it that says `caption` (one or more lines), and `labels` at its halves' feet.
 
-    Letters shrink until the longest line fits. The result is linear light like any picture, and is saved like one.
+    Lines that are too long are broken between words. The result is linear light and is saved like any picture.
     """
-    lines = caption.split("\n")
     size = max(9, round(image.height / 32))
-    font = _fitting(lines, size, image.width * 0.96)
+    font = _font(size)
+    lines = [part for line in caption.split("\n") for part in _broken(line, font, image.width * 0.96)]
     step = round(font.size * 1.45)
     strip = np.full((step * len(lines) + round(font.size * 0.9), image.width), PAPER, np.float32)
     for number, line in enumerate(lines):
@@ -31,7 +31,7 @@ def captioned(image: Image, caption: str, labels: tuple[str, str] | None = None)
         _write(strip, line, font, (image.width / 2, middle), "mm")
     pixels = image.pixels.copy()
     if labels is not None:
-        font = _fitting(list(labels), size, image.width * 0.45)
+        font = _fitting(labels, size, image.width * 0.45)
         for label, across, anchor in ((labels[0], 0.02, "ls"), (labels[1], 0.98, "rs")):
             ink = _letters(pixels.shape[:2], label, font, (image.width * across, image.height * 0.97), anchor)
             pixels += ink[..., None] * (INK - pixels)
@@ -45,9 +45,21 @@ def captioned(image: Image, caption: str, labels: tuple[str, str] | None = None)
     )
 
 
-def _fitting(lines: list[str], size: int, width: float) -> Any:
-    """The largest font up to `size` in which every line is at most `width` pixels long."""
-    widest = max(_font(size).getlength(line) for line in lines)
+def _broken(line: str, font: Any, width: float) -> list[str]:
+    """The words of `line` in lines at most `width` pixels long (a longer word stands alone)."""
+    lines: list[str] = [""]
+    for word in line.split(" "):
+        longer = f"{lines[-1]} {word}" if lines[-1] else word
+        if lines[-1] and font.getlength(longer) > width:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return lines
+
+
+def _fitting(labels: tuple[str, str], size: int, width: float) -> Any:
+    """The largest font up to `size` in which both labels are at most `width` pixels long."""
+    widest = max(_font(size).getlength(label) for label in labels)
     return _font(size if widest <= width else max(6, int(size * width / widest)))
 
 

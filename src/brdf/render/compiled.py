@@ -23,9 +23,9 @@ GRAIN = 16384
 
 def kernel(signature: str | None = None) -> Callable[[Function], Function]:
     """Compile for one signature (numba's notation); without one, a helper compiled into its callers."""
-    options: dict[str, Any] = {"nogil": True, "cache": True, "error_model": "numpy"}
-    decorator: Any = numba.njit(*([signature] if signature else []), **options)
-    return cast(Callable[[Function], Function], decorator)
+    njit: Any = numba.njit
+    options = {"nogil": True, "cache": True, "error_model": "numpy"}
+    return cast(Callable[[Function], Function], njit(*([signature] if signature else []), **options))
 
 
 def cores() -> int:

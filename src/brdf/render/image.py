@@ -52,7 +52,7 @@ class Image:
 
     def developed(self, tone: str = "filmic", exposure: float = 0.0) -> NDArray[np.uint8]:
         """8-bit sRGB, (H, W, 3), or (H, W, 4) with alpha (colours then not multiplied by it)."""
-        pixels = self.pixels
+        pixels: NDArray[np.floating[Any]] = self.pixels
         if self.alpha is not None:
             pixels = pixels / np.maximum(self.alpha, np.float32(1e-6))[..., None]
         display = developed(pixels, tone, exposure)

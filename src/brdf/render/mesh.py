@@ -19,8 +19,8 @@ from . import teapot
 
 Floats = NDArray[np.float32]
 
-CREASE = 60.0
-"""Degrees between a face and its vertex normal above which an edge stays sharp, where a file gives no normals."""
+CREASE = 50.0
+"""Degrees between two faces above which the edge between them stays sharp, where a file gives no normals."""
 
 
 @dataclass(frozen=True)
@@ -129,22 +129,21 @@ def _face_vectors(corners: Any) -> Any:
 
 
 def corner_normals(vertices: Any, faces: Any, crease: float = CREASE) -> Any:
-    """(F, 3, 3) normals: the faces around a position, weighted by area; the face's own beyond `crease` degrees.
+    """(F, 3, 3) normals: of the faces around a position, those within `crease` degrees, weighted by area.
 
     Vertices at the same position count as one, so that seams of texture coordinates and triangle soups stay smooth.
     """
-    face = _face_vectors(vertices[faces])
+    from .mesh_kernels import averaged
+
+    face = _face_vectors(vertices[faces]).astype(np.float64)
     keys = np.ascontiguousarray(vertices + 0.0).view(np.dtype((np.void, 3 * vertices.itemsize)))  # + 0: no -0
     _, position = np.unique(keys.ravel(), return_inverse=True)
-    position = position.reshape(-1)[faces]
-    total = np.zeros((position.max() + 1, 3))
-    for axis in range(3):
-        total[:, axis] = np.bincount(position.ravel(), np.repeat(face[:, axis], 3), len(total))
-    face = face / np.linalg.norm(face, axis=-1, keepdims=True)
-    length = np.linalg.norm(total, axis=-1, keepdims=True)
-    smooth = (total / np.where(length > 0, length, 1))[position]
-    sharp = np.einsum("fci,fi->fc", smooth, face) < np.cos(np.radians(crease))
-    return np.where(sharp[..., None], face[:, None], smooth)
+    position = position.reshape(-1)[faces].ravel()
+    order = np.argsort(position, kind="stable")
+    starts = np.concatenate([[0], np.cumsum(np.bincount(position))])
+    normals = np.empty((len(position), 3))
+    averaged(face, order, starts, np.cos(np.radians(crease)), normals)
+    return normals.reshape(-1, 3, 3)
 
 
 def _teapot() -> Mesh:
