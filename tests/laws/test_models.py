@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import numpy as np
 import pytest
 
 from brdf import Reflectance, laws, mix, models
+from brdf.geometry.sampling import TabulatedSampler
+from brdf.loading import load
+
+LAWS = {law.name: law for law in laws.ALL}
 
 GGX, Lambertian, Microfacet = models.GGX, models.Lambertian, models.Microfacet
 
@@ -24,3 +31,42 @@ CASES: dict[str, Reflectance] = {
 def test_obeys_law_or_declares_the_breach(case: str, law: laws.Law) -> None:
     result = law(CASES[case])
     assert result.status != "breaks", result
+
+
+def drawn(model: type[models.Model], seed: int) -> Reflectance:
+    """The model with parameters drawn within their declared bounds, unbounded ones within a tenth to ten."""
+    rng = np.random.default_rng(seed)
+    values = {}
+    for name, declared in model().declarations().items():
+        low, high = max(declared.low, 0.02), min(declared.high, 10.0)
+        if declared.follows is None and low < high:
+            values[name] = rng.uniform(low, high, declared.size).squeeze()
+    return model(**values)
+
+
+@pytest.mark.parametrize("law", ["positivity", "reciprocity", "isotropy", "weight"])
+@pytest.mark.parametrize("name", models.names())
+def test_obeys_law_for_any_parameters(name: str, law: str) -> None:
+    for seed in range(3):
+        model = drawn(models.get(name), seed)
+        result = LAWS[law](model)
+        assert result.status != "breaks", (model, result)
+
+
+@pytest.mark.parametrize("name", models.names())
+def test_a_declared_breach_is_real(name: str) -> None:
+    model = models.get(name)
+    for law in model.breaks:
+        cases = (drawn(model, seed) for seed in range(6))
+        assert any(not LAWS[law](case).passed for case in [model(), *cases]), f"{name} obeys {law} after all"
+
+
+@pytest.mark.parametrize("file", ["cc_green_malachite_rgb.bsdf", "irid_flake_paint1_rgb.bsdf"])
+def test_measured_material_obeys_laws_with_its_own_and_with_the_tabulated_sampler(data: Path, file: str) -> None:
+    measured = load(data / "rgl" / file)
+    report = laws.check(measured)
+    assert report.passed, str(report)
+    measured.__dict__["_sampler"] = TabulatedSampler(measured, isotropic=True)
+    for law in ("sampling", "density", "weight"):
+        result = LAWS[law](measured)
+        assert result.status == "holds", result

@@ -12,8 +12,9 @@ PAIRS = 20_000
 FORMULA_LIMIT = 1e-6
 """Rounding in float64, with room for the cancellations of sharp lobes."""
 
-DATA_LIMIT = 0.1
-"""A measurement's noise and its two differently sampled directions: a tenth is what careful goniometers leave."""
+DATA_LIMIT = 0.2
+"""For measurements: noise, and the two directions sampled unlike. Careful goniometric ones of the RGL database were
+found to lie between 0.04 and 0.13, so twice as much says that something is wrong."""
 
 
 @law("reciprocity")
@@ -21,7 +22,7 @@ def reciprocity(reflectance: Reflectance) -> LawResult:
     """f(wi, wo) = f(wo, wi).
 
     `value` is the cosine-weighted mean of |f(wi, wo) - f(wo, wi)| relative to that of f. A formula has to obey up to
-    rounding; measured or tabulated data up to 10 %.
+    rounding; measured or tabulated data up to 20 %, and the value is there to be judged.
     """
     wi, wo = pairs(PAIRS)
     value, worst = asymmetry(reflectance(wi, wo), reflectance(wo, wi), wi[:, 2] * wo[:, 2])
