@@ -1,1 +1,1 @@
-
+"""Reflectances held as arrays: gridded tables and their presets."""

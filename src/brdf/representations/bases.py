@@ -1,0 +1,156 @@
+"""Table bases: which three angles of two directions a table runs over.
+
+A basis turns directions into angles as a formula, and angles into directions on NumPy arrays, to place a table's
+nodes. All of them are isotropic: turning both directions about the normal changes nothing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ParameterError, UnknownNameError
+from ..formula import Scalar, Vec, abs, dot, length, sqrt, where
+from ..geometry.warps import HALF_PI, Angle
+
+Array = NDArray[np.floating[Any]]
+
+_DEGENERATE = 1e-12
+"""Length of a projected direction below which its azimuth means nothing."""
+
+
+@dataclass(frozen=True)
+class Basis:
+    """Base of the bases; a subclass is a frozen dataclass and enters the registry by being defined."""
+
+    kinds: ClassVar[dict[str, type[Basis]]] = {}
+    axes: ClassVar[tuple[str, str, str]]
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        super().__init_subclass__(**kwargs)
+        Basis.kinds[cls.__name__] = cls
+
+    @property
+    def extents(self) -> tuple[float, float, float]:
+        """The largest angle on each axis [rad]."""
+        raise NotImplementedError
+
+    def angles(self, wi: Vec, wo: Vec) -> tuple[Angle, Angle, Angle]:
+        """The formula: the three angles of two directions."""
+        raise NotImplementedError
+
+    def directions(self, first: Array, second: Array, third: Array) -> tuple[Array, Array]:
+        """(wi, wo), each (..., 3), of angles [rad] that broadcast."""
+        raise NotImplementedError
+
+    def above_horizon(self, first: Array, second: Array, third: Array, margin: float) -> tuple[Array, Array, Array]:
+        """The nearest angles whose directions lie above the horizon by at least about `margin` [rad]."""
+        raise NotImplementedError
+
+    @property
+    def state(self) -> dict[str, Any]:
+        """What `basis_from` turns back into this basis; plain JSON values."""
+        return {"kind": type(self).__name__, **asdict(self)}
+
+
+def basis_from(state: Mapping[str, Any]) -> Basis:
+    """The basis that `state` describes. Raises UnknownNameError, ParameterError, or TypeError for a wrong field."""
+    fields = dict(state)
+    kind = fields.pop("kind", None)
+    if kind not in Basis.kinds:
+        raise UnknownNameError("table basis", str(kind), Basis.kinds)
+    return Basis.kinds[kind](**fields)
+
+
+@dataclass(frozen=True)
+class HalfBasis(Basis):
+    """(theta_h, theta_d, phi_d): half vector against normal, light against half vector, azimuth of that difference.
+
+    phi_d is folded: to half a turn, which assumes reciprocity alone (f at phi_d + pi is f with the directions
+    exchanged), or to a quarter turn, which assumes mirror symmetry, too. With h = wi + wo,
+
+        cos phi_d = (wo.z - wi.z) / (2 sin theta_h sin theta_d),   sin phi_d ~ (h x wi).z / cos theta_d.
+
+    Where theta_h or theta_d is 0, phi_d is not defined and taken as 0. Reference: Rusinkiewicz1998.
+    """
+
+    axes: ClassVar[tuple[str, str, str]] = ("theta_h", "theta_d", "phi_d")
+
+    fold: str = "half-turn"
+
+    def __post_init__(self) -> None:
+        if self.fold not in ("half-turn", "quarter-turn"):
+            raise ParameterError(f"fold must be 'half-turn' or 'quarter-turn', got {self.fold!r}")
+
+    @property
+    def extents(self) -> tuple[float, float, float]:
+        return HALF_PI, HALF_PI, math.pi if self.fold == "half-turn" else HALF_PI
+
+    def angles(self, wi: Vec, wo: Vec) -> tuple[Angle, Angle, Angle]:
+        h, d = wi + wo, wi - wo
+        h_length = length(h)
+        theta_h = Angle(sqrt(h.x * h.x + h.y * h.y) / h_length, h.z / h_length)
+        theta_d = Angle(0.5 * length(d), 0.5 * h_length)
+        sine = (wi.y * wo.x - wi.x * wo.y) / theta_d.cosine
+        cosine = wo.z - wi.z
+        cosine = where(sine < 0.0, -cosine, cosine) if self.fold == "half-turn" else abs(cosine)
+        return theta_h, theta_d, _azimuth(abs(sine), cosine)
+
+    def directions(self, first: Array, second: Array, third: Array) -> tuple[Array, Array]:
+        theta_h, theta_d, phi_d = np.broadcast_arrays(first, second, third)
+        across = np.sin(theta_d) * np.cos(phi_d)
+        h = np.cos(theta_d)[..., None] * np.stack([np.sin(theta_h), 0 * theta_h, np.cos(theta_h)], -1)
+        d = np.stack([across * np.cos(theta_h), np.sin(theta_d) * np.sin(phi_d), -across * np.sin(theta_h)], -1)
+        return h + d, h - d
+
+    def above_horizon(self, first: Array, second: Array, third: Array, margin: float) -> tuple[Array, Array, Array]:
+        first = np.minimum(first, HALF_PI - 2 * margin)
+        last = np.arctan2(np.cos(first), np.sin(first) * np.abs(np.cos(third)))
+        return first, np.minimum(second, last - margin), third
+
+
+@dataclass(frozen=True)
+class NormalBasis(Basis):
+    """(theta_i, theta_o, phi_delta): both polar angles and the azimuth between them, folded to half a turn.
+
+    The fold assumes mirror symmetry; phi_delta = 0 is retroreflection, pi the mirror direction.
+    """
+
+    axes: ClassVar[tuple[str, str, str]] = ("theta_i", "theta_o", "phi_delta")
+
+    @property
+    def extents(self) -> tuple[float, float, float]:
+        return HALF_PI, HALF_PI, math.pi
+
+    def angles(self, wi: Vec, wo: Vec) -> tuple[Angle, Angle, Angle]:
+        theta_i = Angle(sqrt(wi.x * wi.x + wi.y * wi.y), wi.z)
+        theta_o = Angle(sqrt(wo.x * wo.x + wo.y * wo.y), wo.z)
+        return theta_i, theta_o, _azimuth(abs(wi.x * wo.y - wi.y * wo.x), wi.x * wo.x + wi.y * wo.y)
+
+    def directions(self, first: Array, second: Array, third: Array) -> tuple[Array, Array]:
+        theta_i, theta_o, phi = np.broadcast_arrays(first, second, third)
+        wi = np.stack([np.sin(theta_i), 0 * theta_i, np.cos(theta_i)], -1)
+        wo = np.stack([np.sin(theta_o) * np.cos(phi), np.sin(theta_o) * np.sin(phi), np.cos(theta_o)], -1)
+        return wi, wo
+
+    def above_horizon(self, first: Array, second: Array, third: Array, margin: float) -> tuple[Array, Array, Array]:
+        return np.minimum(first, HALF_PI - margin), np.minimum(second, HALF_PI - margin), third
+
+
+def cos_difference(wi: Vec, wo: Vec) -> Scalar:
+    """cos theta_d, the cosine of half the angle between the directions."""
+    h = wi + wo
+    return 0.5 * sqrt(dot(h, h))
+
+
+def _azimuth(sine: Scalar, cosine: Scalar) -> Angle:
+    """The angle of a pair of any length; 0 where it has none."""
+    norm = sqrt(sine * sine + cosine * cosine)
+    defined = norm > _DEGENERATE
+    scale = 1.0 / where(defined, norm, 1.0)
+    return Angle(where(defined, sine * scale, 0.0), where(defined, cosine * scale, 1.0))

@@ -1,0 +1,226 @@
+"""One class for every gridded reflectance: a grid of nodes over three angles, linearly interpolated.
+
+What distinguishes a measured MERL table, the tables of papers and a 16 KB slice stack is data here: the basis (which
+angles), a warp for each axis (where the nodes lie), the encoding (what is stored in place of f), and the storage
+(floats, halves, packed bits).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..errors import BrdfError, ReflectanceError
+from ..formula import Scalar, Vec, texture3d
+from ..formula.backends import backend_of
+from ..formula.textures import lookup
+from ..geometry.warps import Angle, Warp, warp_from
+from ..reflectance import Reflectance, broadcast_directions
+from .bases import Basis, basis_from, cos_difference
+from .encoding import Encoding, encoding_from
+from .storage import storage
+
+Array = NDArray[np.floating[Any]]
+
+
+@dataclass(frozen=True)
+class Layout:
+    """How a table is laid out: everything but its numbers.
+
+    The nodes of each axis sit at its ends (vertex-centred): node i of n has the warp's coordinate i / (n - 1).
+    """
+
+    basis: Basis
+    warps: tuple[Warp, ...]
+    shape: tuple[int, ...]
+    encoding: Encoding
+    storage: str = "float32"
+
+    def __post_init__(self) -> None:
+        if len(self.shape) != 3 or len(self.warps) != 3 or min(self.shape) < 2:
+            raise ReflectanceError(
+                f"a table has three axes of at least 2 nodes and a warp for each, got shape {self.shape}"
+            )
+        storage(self.storage)
+
+    def nodes(self) -> tuple[Array, Array, Array]:
+        """The angles [rad] of the nodes, shaped to broadcast over the grid: (n, 1, 1), (1, n, 1), (1, 1, n)."""
+        first, second, third = (warp.nodes(n) for warp, n in zip(self.warps, self.shape, strict=True))
+        return first[:, None, None], second[None, :, None], third[None, None, :]
+
+    def texture_coordinates(self, angles: tuple[Angle, Angle, Angle]) -> list[Scalar]:
+        """The formula: texture coordinates that put node i at the centre of texel i."""
+        axes = zip(self.warps, angles, self.shape, strict=True)
+        return [(warp.coordinate(angle) * (n - 1) + 0.5) * (1 / n) for warp, angle, n in axes]
+
+    @property
+    def state(self) -> dict[str, Any]:
+        return {
+            "basis": self.basis.state,
+            "warps": [warp.state for warp in self.warps],
+            "shape": list(self.shape),
+            "encoding": self.encoding.state,
+            "storage": self.storage,
+        }
+
+
+def layout_from(state: Mapping[str, Any]) -> Layout:
+    """The layout that `Layout.state` describes. May raise any error for a broken description."""
+    warps = tuple(map(warp_from, state["warps"]))
+    shape = tuple(map(int, state["shape"]))
+    return Layout(basis_from(state["basis"]), warps, shape, encoding_from(state["encoding"]), state["storage"])
+
+
+class Table(Reflectance):
+    """f = decode(texture(angles(wi, wo))): a grid of nodes over three angles, interpolated linearly.
+
+    `codes` are the stored numbers (see `storage`), `constants` the (3,) arrays that go with them: `floor` where the
+    encoding uses one, `low` and `span` for packed storage. `measured`, if given, says for each node (shape of the
+    grid) whether its value was measured; the other nodes hold values filled in from their neighbours.
+    """
+
+    grid: Any
+    floor: Any
+    """The texture and the floor, as `self` has them inside the formula."""
+
+    def __init__(
+        self,
+        layout: Layout,
+        codes: NDArray[Any],
+        constants: Mapping[str, ArrayLike] | None = None,
+        measured: NDArray[np.bool_] | None = None,
+    ) -> None:
+        self.layout = layout
+        self._codes = codes
+        self._values = {k: np.asarray(v, np.float64) for k, v in (constants or {}).items()}
+        self._textures = {"grid": storage(layout.storage).texels(codes)}
+        self._measured = measured
+        if self._textures["grid"].shape != (*layout.shape, 3):
+            raise ValueError(f"codes {codes.shape} {codes.dtype} do not fill a grid of shape {layout.shape}")
+        expected = {*storage(layout.storage).constants, *(("floor",) if "floor" in self._values else ())}
+        if set(self._values) != expected or any(v.shape != (3,) for v in self._values.values()):
+            raise ValueError(f"constants must be (3,) arrays {sorted(expected)}, got {sorted(self._values)}")
+        if measured is not None and (measured.shape != layout.shape or measured.dtype != np.bool_):
+            raise ValueError(f"`measured` must be booleans of shape {layout.shape}, got {measured.shape}")
+
+    @classmethod
+    def encoded(
+        cls, layout: Layout, stored: Array, floor: ArrayLike | None = None, measured: NDArray[np.bool_] | None = None
+    ) -> Table:
+        """A table of encoded values (*shape, 3), packed here; `floor` (3,) is what the encoding subtracted."""
+        codes, constants = storage(layout.storage).pack(stored)
+        if floor is not None:
+            constants["floor"] = np.asarray(floor, np.float64)
+        return cls(layout, codes, constants, measured)
+
+    @classmethod
+    def bake(
+        cls,
+        m: Reflectance,
+        basis: str = "half",
+        warp: str = "bezier",
+        shape: tuple[int, int, int] = (64, 64, 16),
+        storage: str = "half",
+    ) -> Table:
+        """`m` evaluated at the nodes of a grid; nodes below the horizon repeat the last value above it.
+
+        `basis` is "half" (theta_h, theta_d, phi_d), stored as ln(f + 1e-3), or "normal" (theta_i, theta_o, phi_delta),
+        stored as f; `warp` is "uniform", "bezier" or "identity" (even cosines; the normal basis alone) or "merl" (the
+        half basis alone). Raises ReflectanceError for an anisotropic `m`, UnknownNameError for a name.
+        """
+        from .bake import bake_points
+        from .layouts import named_layout
+
+        return bake_points(m, named_layout(basis, warp, shape, storage))
+
+    # ---- the contract ------------------------------------------------------------------------------------------
+
+    @property
+    def structure(self) -> tuple[Any, ...]:
+        return (Table, self.layout, *self._values)
+
+    @property
+    def values(self) -> Mapping[str, Any]:
+        return self._values
+
+    @property
+    def textures(self) -> Mapping[str, NDArray[Any]]:
+        return self._textures
+
+    def f(self, wi: Vec, wo: Vec) -> Vec:
+        layout = self.layout
+        texel = texture3d(self.grid, *layout.texture_coordinates(layout.basis.angles(wi, wo)))
+        stored = storage(layout.storage).value(texel, self)
+        floor = self.floor if "floor" in self._values else 0.0
+        return layout.encoding.decode(stored, cos_difference(wi, wo), floor)
+
+    @property
+    def nbytes(self) -> int:
+        """The codes, 4 bytes a constant, and 1 bit a node for what was measured."""
+        mask = 0 if self._measured is None else (self._measured.size + 7) // 8
+        return self._codes.nbytes + mask + 4 * sum(np.size(v) for v in self._values.values())
+
+    def __repr__(self) -> str:
+        layout = self.layout
+        size = " x ".join(f"{n} {axis}" for n, axis in zip(layout.shape, layout.basis.axes, strict=True))
+        return f"Table({self.name or 'unnamed'}: {size}, {layout.storage}, {self.nbytes:,} bytes)"
+
+    # ---- the grid ----------------------------------------------------------------------------------------------
+
+    @property
+    def codes(self) -> NDArray[Any]:
+        """The stored numbers, as saved."""
+        return self._codes
+
+    @property
+    def measured(self) -> NDArray[np.bool_]:
+        """For each node whether its value was measured (all True where nothing is known to be filled in)."""
+        return np.ones(self.layout.shape, np.bool_) if self._measured is None else self._measured
+
+    @property
+    def has_holes(self) -> bool:
+        """Whether some nodes are filled in."""
+        return self._measured is not None
+
+    def valid(self, wi: ArrayLike, wo: ArrayLike) -> NDArray[np.bool_]:
+        """Whether the values at (..., 3) directions rest on measurements: above the horizon, and at least half of the
+        interpolation's weight on measured nodes. Returns (...) booleans."""
+        wi, wo, shape = broadcast_directions(wi, wo)
+        above = (wi[:, 2] > 0) & (wo[:, 2] > 0)
+        if self._measured is not None:
+            with np.errstate(all="ignore"):
+                angles = self.layout.basis.angles(Vec(*wi.T), Vec(*wo.T))
+                coordinates = self.layout.texture_coordinates(angles)
+                share = lookup(self._mask_texels, tuple(coordinates), backend_of(wi))[0]
+            above &= share >= 0.5
+        return above.reshape(shape)
+
+    @cached_property
+    def _mask_texels(self) -> NDArray[np.bool_]:
+        return self.measured[..., None]
+
+    # ---- storage -----------------------------------------------------------------------------------------------
+
+    def _state(self) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+        header = {"layout": self.layout.state, "constants": {k: v.tolist() for k, v in self._values.items()}}
+        arrays = {"codes": self._codes}
+        if self._measured is not None:
+            arrays["measured"] = np.packbits(self._measured)
+        return header, arrays
+
+    @classmethod
+    def _restore(cls, header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], children: Any) -> Reflectance:
+        try:
+            layout = layout_from(header["layout"])
+        except BrdfError as error:
+            raise ValueError(error) from None
+        measured = None
+        if "measured" in arrays:
+            bits = np.unpackbits(arrays["measured"], count=int(np.prod(layout.shape)))
+            measured = bits.reshape(layout.shape).astype(np.bool_)
+        return cls(layout, arrays["codes"], header["constants"], measured)
