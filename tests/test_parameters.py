@@ -108,9 +108,7 @@ def test_parts_bring_their_parameters() -> None:
 def test_parameters_of_the_other_choice() -> None:
     with pytest.raises(ParameterError, match=r"^k has no effect with fresnel='schlick'; it belongs to fresnel='conduc"):
         Microfacet(k=3.0)
-    with pytest.raises(
-        ParameterError, match=r"^F0 has no effect with fresnel='dielectric'; it belongs"
-    ):
+    with pytest.raises(ParameterError, match=r"^F0 has no effect with fresnel='dielectric'; it belongs"):
         Microfacet(fresnel="dielectric", F0=0.04)
 
 

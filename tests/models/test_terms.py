@@ -93,6 +93,9 @@ def test_dielectric_against_snell_and_fresnel(eta: float) -> None:
     r_p = (eta * COSINES - cos_t) / (eta * COSINES + cos_t)
     F = bound(Dielectric(eta=eta)).F(COSINES)
     np.testing.assert_allclose(F[0], (r_s**2 + r_p**2) / 2, rtol=1e-7, atol=1e-9)
+    single = bound(Dielectric(eta=np.float32(eta)), np.float32).F(COSINES.astype(np.float32))
+    double = bound(Dielectric(eta=np.float32(eta))).F(COSINES.astype(np.float32).astype(float))
+    np.testing.assert_allclose(single[0], double[0], rtol=1e-5)
 
 
 @pytest.mark.parametrize(("eta", "k"), [(0.2, 3.91), (0.05, 4.2), (1.5, 0.0), (2.9, 3.1), (0.5, 0.1), (20.0, 20.0)])

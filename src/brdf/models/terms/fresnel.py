@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...formula import Scalar, Vec, abs, saturate, sqrt, where
+from ...formula import Scalar, Vec, abs, clip, saturate, sqrt, where
 from ...parameters import RGB, Parameterised, number, rgb
 
 
@@ -25,17 +25,19 @@ class Schlick(Fresnel):
 class Dielectric(Fresnel):
     """Exact, unpolarised, for a real relative index eta = n_inside / n_outside. Reference: Born1999.
 
-    With g = eta cos_t: r_s = (cosine - g) / (cosine + g), r_p = (eta^2 cosine - g) / (eta^2 cosine + g).
+    With g = eta cos_t: r_s = (cosine - g) / (cosine + g), r_p = (eta^2 cosine - g) / (eta^2 cosine + g), each written
+    with its numerator multiplied out by the denominator, which keeps the digits of weak reflections.
     """
 
     eta: Scalar = number("relative refractive index", default=1.5, low=1.0, high=4.0)
 
     def F(self, cosine: Scalar) -> Vec:
-        c = saturate(cosine)
+        c = clip(cosine, 1e-9, 1.0)  # the square of c + g stays above zero for eta = 1, too
         eta2 = self.eta * self.eta
-        g = sqrt(eta2 - 1.0 + c * c)
-        r_s = (c - g) / (c + g)
-        r_p = (eta2 * c - g) / (eta2 * c + g)
+        step = (self.eta - 1.0) * (self.eta + 1.0)
+        g = sqrt(step + c * c)
+        r_s = -step / (c + g) ** 2
+        r_p = step * ((eta2 + 1.0) * c * c - 1.0) / (eta2 * c + g) ** 2
         reflectance = 0.5 * (r_s * r_s + r_p * r_p)
         return Vec(reflectance, reflectance, reflectance)
 
