@@ -19,7 +19,7 @@ from . import teapot
 
 Floats = NDArray[np.float32]
 
-CREASE = 50.0
+CREASE = 75.0
 """Degrees between two faces above which the edge between them stays sharp, where a file gives no normals."""
 
 
