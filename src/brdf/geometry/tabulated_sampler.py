@@ -84,7 +84,7 @@ class TabulatedSampler:
             wi[block] = self._sample(table, wo[block], u[block].astype(np.float64))
         return wi, np.zeros(len(wo), bool)
 
-    def _sample(self, table: _Table, wo: Floats, u: NDArray[np.float64]) -> Floats:
+    def _sample(self, table: _Table, wo: Floats, u: Floats) -> Floats:
         grid, first, second = self._grid, u[:, 0], u[:, 1]
         node = np.zeros(len(wo), np.intp)
         for lower, upper, weight, stride in self._neighbours(wo):
