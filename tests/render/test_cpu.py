@@ -218,3 +218,25 @@ def test_progress_is_told_to_the_end():
 def test_what_cannot_be_rendered_says_why(options, error, words):
     with pytest.raises(error, match=words):
         render(WHITE, **options)
+
+
+def test_without_embree_the_sphere_is_rendered_and_a_mesh_says_what_it_needs(monkeypatch):
+    import sys
+
+    for name in ("embreex", "embreex.mesh_construction", "embreex.rtcore_scene"):
+        monkeypatch.setitem(sys.modules, name, None)
+    assert render(WHITE, "sphere", "directional", size=(16, 12)).pixels.max() > 0.5
+    with pytest.raises(SceneError, match="mesh teapot needs embreex"):
+        render(WHITE, "teapot", "directional", size=(16, 12))
+
+
+def test_what_is_shown_stands_in_the_file(tmp_path):
+    from PIL import Image as Pictures
+
+    metal = brdf.models.GGX(alpha=0.2).named("a metal", "measured here")
+    render(metal, "sphere", "directional:theta=30,phi=0,power=2", size=(16, 12)).save(tmp_path / "a.png")
+    text = Pictures.open(tmp_path / "a.png").text
+    assert text["Material"] == "a metal"
+    assert text["Source"] == "measured here"
+    assert text["Light"] == "directional:theta=30,phi=0,power=2/2/2"
+    assert text["Software"] == f"brdf {brdf.__version__}"

@@ -51,3 +51,8 @@ def test_point_light_in_the_surface_lights_nothing_there():
     assert np.isfinite(toward).all()
     np.testing.assert_allclose(distance, [0, 2])
     np.testing.assert_allclose(irradiance, [[0] * 3, [np.pi / 4] * 3], rtol=1e-6)
+
+
+@pytest.mark.parametrize("text", ["directional:theta=30,phi=-45,power=3/2/1", "point:1/2/-3,power=0.5/0.5/0.5"])
+def test_lights_are_written_as_they_are_read(text):
+    assert str(parse(text)) == text

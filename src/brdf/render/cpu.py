@@ -135,7 +135,7 @@ def _render(
     taken = rounds * per_pixel if scene.environment else 0
     notes = {
         "Material": " | ".join(reflectance.name or repr(reflectance) for reflectance in reflectances),
-        "Source": " | ".join(reflectance.source for reflectance in reflectances),
+        "Source": " | ".join(reflectance.source for reflectance in reflectances if reflectance.source),
         "Mesh": scene.mesh.name,
         "Light": ", ".join([*map(str, scene.lights), *([scene.environment.name] if scene.environment else [])]),
         "Samples": f"{taken} per pixel, {per_side} x {per_side} rays, seed {seed}",

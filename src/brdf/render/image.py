@@ -81,7 +81,7 @@ class Image:
 
     def notes(self) -> dict[str, str]:
         """The metadata with the software's name and version."""
-        return {"Software": f"brdf {__version__}", **self.metadata}
+        return {"Software": f"brdf {__version__}"} | {key: value for key, value in self.metadata.items() if value}
 
 
 def _pil(image: Image, tone: str, exposure: float) -> Any:

@@ -32,6 +32,10 @@ def _colour(power: ArrayLike) -> NDArray[np.float64]:
     return np.broadcast_to(array, (3,)).copy()
 
 
+def _slashed(values: NDArray[np.float64]) -> str:
+    return "/".join(f"{value:g}" for value in values)
+
+
 @dataclass(frozen=True, eq=False)
 class Directional:
     """Parallel light from the direction `theta` degrees from +y (up), `phi` degrees from +z towards +x (right).
@@ -47,6 +51,9 @@ class Directional:
         if not (math.isfinite(self.theta) and math.isfinite(self.phi)):
             raise ParameterError("theta and phi of a directional light must be finite degrees")
         object.__setattr__(self, "power", _colour(self.power))
+
+    def __str__(self) -> str:
+        return f"directional:theta={self.theta:g},phi={self.phi:g},power={_slashed(self.power)}"
 
     @property
     def toward(self) -> NDArray[np.float64]:
@@ -74,6 +81,9 @@ class Point:
             raise ParameterError(f"position of a point light must be three numbers, got {self.position!r}")
         object.__setattr__(self, "position", position)
         object.__setattr__(self, "power", _colour(self.power))
+
+    def __str__(self) -> str:
+        return f"point:{_slashed(self.position)},power={_slashed(self.power)}"
 
     def seen_from(self, points: Floats) -> tuple[Floats, Floats, Floats]:
         """As for a directional light; a point in the very place of the light gets no light from it."""
