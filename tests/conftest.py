@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Generator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -17,3 +19,22 @@ def data() -> Path:
     path = Path(folder)
     assert path.is_dir(), f"BRDF_DATA={folder} is not a folder"
     return path
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_makereport() -> Generator[None, Any, Any]:
+    """With BRDF_NO_SKIPS=1 a skipped test is a failure."""
+    return _without_skips((yield))
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_make_collect_report() -> Generator[None, Any, Any]:
+    """With BRDF_NO_SKIPS=1 a skipped module is a failure."""
+    return _without_skips((yield))
+
+
+def _without_skips(report: Any) -> Any:
+    if report.skipped and not hasattr(report, "wasxfail") and os.environ.get("BRDF_NO_SKIPS") == "1":
+        reason = report.longrepr[2] if isinstance(report.longrepr, tuple) else report.longrepr
+        report.outcome, report.longrepr = "failed", f"{reason} (BRDF_NO_SKIPS=1 makes this a failure)"
+    return report

@@ -14,8 +14,8 @@ from .reflectance import Reflectance
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _SCALED = re.compile(rf"\s*({NUMBER}(?:/{NUMBER}/{NUMBER})?)\s*\*\s*(.*)", re.DOTALL)
-_PLUS = re.compile(r"(?<![\d.][eE])\+")
-"""A plus between lobes, not the one in 1e+3."""
+_PLUS = re.compile(r"(?<![\d.][eE])(?<![=/])\+")
+"""A plus between lobes, not the one in 1e+3 or in eta=+1.5."""
 
 
 def load(spec: str | os.PathLike[str]) -> Reflectance:
@@ -57,7 +57,7 @@ def _term(term: str, spec: str) -> Reflectance:
 def _atom(text: str) -> Reflectance:
     """A name, a path, or `MODEL:parameters`."""
     model_names = {name.lower() for name in models.names()}
-    head, colon, parameters = text.partition(":")
+    head, _, parameters = text.partition(":")
     if head.strip().lower() in model_names:
         return _model(head.strip(), parameters)
     name, at, fit = text.partition("@")
@@ -65,10 +65,10 @@ def _atom(text: str) -> Reflectance:
         return materials.get(name, fit) if at else materials.get(name)
     if os.path.exists(text):
         return io.read(text)
+    if "=" in parameters:
+        raise UnknownNameError("model", head.strip(), models.names())
     if Path(text).suffix or os.sep in text or "/" in text:
         raise FileError(text, "no such file; check the path.")
-    if colon:
-        raise UnknownNameError("model", head, models.names())
     raise UnknownNameError("material", name, [*materials.names(), *models.names()], "see `brdf list materials`")
 
 

@@ -7,6 +7,7 @@ Exit codes: 0 done, 1 a law does not hold (`check`), 2 a mistake of the caller, 
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from collections.abc import Sequence
 
@@ -15,6 +16,9 @@ USER_MISTAKE, OWN_MISTAKE, INTERRUPTED = 2, 3, 130
 
 def main() -> None:
     """Entry point of the `brdf` command."""
+    if hasattr(signal, "SIGPIPE"):
+        # End silently when the reader of our output leaves (as `head` does), like any other tool.
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     sys.exit(run(sys.argv[1:]))
 
 
@@ -28,10 +32,6 @@ def run(arguments: Sequence[str]) -> int:
         return _fail(str(error), USER_MISTAKE)
     except KeyboardInterrupt:
         return INTERRUPTED
-    except BrokenPipeError:
-        # The reader of our output left (as `head` does); let the interpreter's last flush go nowhere.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
     except Exception as error:
         if os.environ.get("BRDF_DEBUG"):
             raise
