@@ -2,7 +2,7 @@
 
 RGB is linear with Rec. 709 primaries and the D65 white throughout the package. A reflectance spectrum becomes
 RGB as it looks under illuminant E (equal energy), adapted to D65 (Bradford), so that a constant reflectance r
-is (r, r, r).
+is (r, r, r); saturated colours differ from those under D65 itself by up to 0.03.
 
 The CIE 1931 2-degree matching functions are the multi-lobe fit of Wyman2013. It departs from the tabulated
 functions by at most 0.015 for x, 0.010 for y and 0.035 for z (their maxima are 1.06, 1.00 and 1.78).
