@@ -163,7 +163,9 @@ def test_declarations_are_documented() -> None:
     assert Distribution.alpha_x.follows == "alpha"
 
 
-def test_a_parameter_does_not_hide_a_method() -> None:
-    for m in (Lambertian(albedo=0.3), OrenNayar(albedo=0.3, sigma=0.0)):
-        np.testing.assert_array_equal(m.values["albedo"], 0.3)
-        np.testing.assert_allclose(m.albedo([0.0, 0.6, 0.8]), 0.3, rtol=1e-6)
+def test_a_parameter_named_like_a_method_can_be_called() -> None:
+    for m in (Lambertian(albedo=(0.2, 0.5, 0.7)), OrenNayar(albedo=(0.2, 0.5, 0.7), sigma=0.0)):
+        np.testing.assert_array_equal(m.albedo, (0.2, 0.5, 0.7))
+        albedo = m.albedo([[0.0, 0.0, 1.0], [0.6, 0.0, 0.8]])
+        np.testing.assert_allclose(albedo, [(0.2, 0.5, 0.7)] * 2, rtol=1e-6)
+    assert (0.5 * m).replaced(scale=0.25).scale[0] == 0.25

@@ -120,6 +120,9 @@ class Scaled(Parameterised, Reflectance):
     def _restore(cls, header: Any, arrays: Any, children: Mapping[str, Reflectance]) -> Reflectance:
         return cls(children["base"], header["scale"])
 
+    def replaced(self, **changes: Any) -> Scaled:
+        return Scaled(self._children["base"], **{"scale": self.scale, **changes})
+
     def __repr__(self) -> str:
         return f"{tuple(map(float, self.scale))} * {self._children['base']!r}"
 
@@ -146,4 +149,4 @@ def mix(a: Reflectance, b: Reflectance, t: float) -> Sum:
 def _typical_albedo(lobe: Reflectance) -> float:
     """A weight for choosing between lobes: the mean albedo at 45 degrees. It only steers the sampling."""
     # through the class: a model may have a parameter called albedo
-    return float(Reflectance.albedo(lobe, [np.sqrt(0.5), 0.0, np.sqrt(0.5)], samples=256).mean())
+    return float(lobe.albedo([np.sqrt(0.5), 0.0, np.sqrt(0.5)], samples=256).mean())

@@ -11,9 +11,11 @@ validation, `brdf info`, fit transforms, sliders and shader uniforms all derive 
 
 from __future__ import annotations
 
+import inspect
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
@@ -24,6 +26,21 @@ from .errors import ParameterError, UnknownNameError
 Value = float | NDArray[np.float64]
 RGB = Any
 Scalar = Any
+
+
+class CallableValue(np.ndarray):  # type: ignore[type-arg]
+    """The value of a parameter named like a method: `m.albedo` is Lambert's parameter, `m.albedo(wo)` the quantity."""
+
+    _method: Callable[..., Any]
+
+    @classmethod
+    def of(cls, value: Value, method: Callable[..., Any]) -> CallableValue:
+        array = np.asarray(value).view(cls)
+        array._method = method
+        return array
+
+    def __call__(self, *arguments: Any, **keywords: Any) -> Any:
+        return self._method(*arguments, **keywords)
 
 
 @dataclass(frozen=True)
@@ -42,16 +59,21 @@ class Parameter:
     size: int = 1
     follows: str | None = None
     name: str = field(default="", init=False, compare=False)
+    method: Callable[..., Any] | None = field(default=None, init=False, compare=False)
+    """The inherited method that bears the same name, if any."""
 
     def __set_name__(self, owner: type, name: str) -> None:
         object.__setattr__(self, "name", name)
+        inherited = (vars(base).get(name) for base in owner.__mro__[1:])
+        object.__setattr__(self, "method", next((m for m in inherited if inspect.isfunction(m)), None))
 
     def __get__(self, owner: Parameterised | None, cls: type) -> Any:
         if owner is None:
             return self
         for name in (self.name, self.follows):
             if name in owner._values:
-                return owner._values[name]
+                value = owner._values[name]
+                return value if self.method is None else CallableValue.of(value, partial(self.method, owner))
         raise AttributeError(f"{self.name} is not in force in {owner!r}")
 
     def validated(self, name: str, value: Any) -> Value:
@@ -146,9 +168,6 @@ class Parameterised:
         own = vars(cls)
         cls._declared = cls._declared | {k: v for k, v in own.items() if isinstance(v, Parameter)}
         cls._choices = cls._choices | {k: v for k, v in own.items() if isinstance(v, Choice)}
-        for name in [k for k, v in own.items() if isinstance(v, Parameter)]:
-            if any(callable(vars(base).get(name)) for base in cls.__mro__[1:]):
-                delattr(cls, name)  # a method of the contract (`albedo`) stays callable; the value is in `values`
 
     def __init__(self, **given: Any) -> None:
         self._chosen = {name: c.validated(name, given.pop(name, c.default)) for name, c in self._choices.items()}

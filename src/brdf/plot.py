@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -17,13 +17,13 @@ from .geometry.directions import from_half_difference, from_spherical
 from .reflectance import Reflectance
 
 if TYPE_CHECKING:
-    from matplotlib.figure import FigureBase
+    from matplotlib.figure import Figure, FigureBase
 
 WIDTH = 6.0
 """Inches; at 100 dpi this is the page's 600 pixels."""
 
-LOBE_HEIGHT, DISC, PAGE_HEIGHTS = 3.5, 4.7, (3.4, 3.2, 3.1)
-"""Inches: the figure of lobes, the diameter of its half disc, the three parts of the overview."""
+LOBE_HEIGHT, SLICE_HEIGHT, ALBEDO_HEIGHT, DISC = 3.5, 3.2, 3.2, 4.7
+"""Inches: the three figures, and the diameter of the half disc that the lobes are drawn in."""
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00")
 """Distinct with any colour vision. Reference: Okabe2008."""
@@ -32,22 +32,66 @@ DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1, 1)), "-.", (0, (3, 1, 1, 
 """Second key to the curves, for print without colour."""
 
 LOBE_DECADES, SLICE_DECADES = 6, 4
-"""How many powers of ten below the largest value are still drawn."""
+"""How many powers of ten below the largest value are still figure."""
 
 LEGEND: dict[str, Any] = {"fontsize": 9, "title_fontsize": 9, "frameon": False}
 
 
-def lobes(m: Reflectance, angles: Sequence[float] = (0, 30, 60, 80), figure: FigureBase | None = None) -> FigureBase:
+LIGHT_ANGLES = (0, 30, 60, 80)
+"""Polar angles [degrees] of the light in the figure of lobes."""
+
+
+def lobes(m: Reflectance, angles: Sequence[float] = LIGHT_ANGLES) -> Figure:
     """f in the plane of incidence for light from several polar `angles` [degrees], as polar curves.
 
     The radius is the luminance of f [1/sr], logarithmic. Light comes from the left, the mirror direction is to the
-    right. Draws into `figure` when one is given.
+    right.
     """
-    drawn = _figure(figure, LOBE_HEIGHT, layout="none")
+    figure = _figure(LOBE_HEIGHT, layout=None)
+    _title(figure, f"{_name(m)}\n{_draw_lobes(figure, m, LOBE_HEIGHT, angles)}")
+    return figure
+
+
+def slices(m: Reflectance, phi_d: float = 90.0, size: int = 192) -> Figure:
+    """f over half and difference angle at one azimuth `phi_d` [degrees]: in colour, and its luminance on a log scale.
+
+    theta_h runs to the right, spread by a square root so that narrow highlights show; theta_d runs up. Below the
+    horizon nothing is figure.
+    """
+    figure = _figure(SLICE_HEIGHT)
+    _title(figure, f"{_name(m)}\n{_draw_slices(figure, m, phi_d, size)}")
+    return figure
+
+
+def albedo(m: Reflectance, samples: int = 4096) -> Figure:
+    """Directional albedo over the polar angle of the light, each channel with twice its estimated error as a band.
+
+    Where the line at 1 is crossed, more light leaves than arrives. An anisotropic reflectance is lit along its tangent.
+    """
+    figure = _figure(ALBEDO_HEIGHT)
+    _title(figure, f"{_name(m)}\n{_draw_albedo(figure, m, samples)}")
+    return figure
+
+
+def overview(m: Reflectance) -> Figure:
+    """Lobes, slices and albedo on one page."""
+    heights = (LOBE_HEIGHT, SLICE_HEIGHT, ALBEDO_HEIGHT)
+    page = _figure(sum(heights))
+    page.suptitle(_name(m), fontsize=12, parse_math=False)
+    first, second, third = page.subfigures(3, 1, height_ratios=heights)
+    _title(first, _draw_lobes(first, m, LOBE_HEIGHT))
+    _title(second, _draw_slices(second, m))
+    _title(third, _draw_albedo(third, m))
+    return page
+
+
+# ---- drawing into a figure or a part of one; each returns its title ------------------------------------------------
+
+
+def _draw_lobes(figure: FigureBase, m: Reflectance, height: float, angles: Sequence[float] = LIGHT_ANGLES) -> str:
     # placed by hand: the half disc is drawn across the middle of a square, half of which would stay empty
-    height = LOBE_HEIGHT if figure is None else PAGE_HEIGHTS[0]
     box = ((WIDTH - DISC) / 2 / WIDTH, (0.4 - DISC / 4) / height, DISC / WIDTH, DISC / height)
-    axes: Any = drawn.add_axes(box, projection="polar")
+    axes: Any = figure.add_axes(box, projection="polar")
     axes.set_theta_zero_location("N")
     axes.set_theta_direction(-1)
     axes.set_thetamin(-90)
@@ -68,21 +112,14 @@ def lobes(m: Reflectance, angles: Sequence[float] = (0, 30, 60, 80), figure: Fig
     axes.set_xticks(np.radians(range(-90, 91, 30)), [f"{abs(a)}°" for a in range(-90, 91, 30)])
     axes.tick_params(labelsize=9)
     axes.grid(alpha=0.35)
-    drawn.legend(title="light from ▾", loc="upper left", bbox_to_anchor=(0.01, 0.9), **LEGEND)
-    _title(drawn, m, "f in the plane of incidence, luminance [1/sr], logarithmic", figure is None)
-    return drawn
+    figure.legend(title="light from ▾", loc="upper left", bbox_to_anchor=(0.01, 0.9), **LEGEND)
+    return "f in the plane of incidence, luminance [1/sr], logarithmic"
 
 
-def slices(m: Reflectance, phi_d: float = 90.0, size: int = 192, figure: FigureBase | None = None) -> FigureBase:
-    """f over half and difference angle at one azimuth `phi_d` [degrees]: in colour, and its luminance on a log scale.
-
-    theta_h runs to the right, spread by a square root so that narrow highlights show; theta_d runs up. Below the
-    horizon nothing is drawn. Draws into `figure` when one is given.
-    """
+def _draw_slices(figure: FigureBase, m: Reflectance, phi_d: float = 90.0, size: int = 192) -> str:
     from matplotlib.colors import LogNorm
 
-    drawn = _figure(figure, 3.2)
-    colour_axes, log_axes = drawn.subplots(1, 2, sharey=True)
+    colour_axes, log_axes = figure.subplots(1, 2, sharey=True)
     spread = (np.arange(size) + 0.5) / size
     theta_h, theta_d = np.meshgrid(spread**2 * math.pi / 2, spread * math.pi / 2)
     wi, wo = from_half_difference(theta_h, 0.0, theta_d, math.radians(phi_d))
@@ -99,7 +136,7 @@ def slices(m: Reflectance, phi_d: float = 90.0, size: int = 192, figure: FigureB
     norm = LogNorm(10.0**bottom, 10.0**top)
     mapped = log_axes.imshow(bright, origin="lower", extent=extent, aspect="auto", cmap="cividis", norm=norm)
     log_axes.set_title("luminance of f", fontsize=10)
-    drawn.colorbar(mapped, ax=log_axes, label="f [1/sr]", extend="both")
+    figure.colorbar(mapped, ax=log_axes, label="f [1/sr]", extend="both")
     ticks = (0, 2, 10, 25, 50, 90)
     for axes in (colour_axes, log_axes):
         axes.set_xticks([math.sqrt(t / 90) for t in ticks], [f"{t}°" for t in ticks])
@@ -107,22 +144,14 @@ def slices(m: Reflectance, phi_d: float = 90.0, size: int = 192, figure: FigureB
         axes.set_xlabel("half angle θh")
         axes.tick_params(labelsize=9)
     colour_axes.set_ylabel("difference angle θd")
-    _title(drawn, m, f"slice at φd = {phi_d:g}°", figure is None)
-    return drawn
+    return f"slice at φd = {phi_d:g}°"
 
 
-def albedo(m: Reflectance, samples: int = 4096, figure: FigureBase | None = None) -> FigureBase:
-    """Directional albedo over the polar angle of the light, each channel with twice its estimated error as a band.
-
-    Where the line at 1 is crossed, more light leaves than arrives. An anisotropic reflectance is lit along its tangent.
-    Draws into `figure` when one is given.
-    """
-    drawn = _figure(figure, 3.2)
-    axes = drawn.add_subplot()
+def _draw_albedo(figure: FigureBase, m: Reflectance, samples: int = 4096) -> str:
+    axes = figure.add_subplot()
     degrees = np.array([*range(0, 81, 5), 83, 86, 88])
     wo = from_spherical(np.radians(degrees), 0.0)
-    # through the class: a model may have a parameter called albedo
-    value, error = Reflectance.albedo(m, wo, samples), 2 * Reflectance.albedo_error(m, wo, samples)
+    value, error = m.albedo(wo, samples), 2 * m.albedo_error(wo, samples)
     axes.axhline(1, color="0.4", lw=0.8)
     for channel, (name, colour, dash) in enumerate(
         zip(("red", "green", "blue"), (COLOURS[1], COLOURS[2], COLOURS[0]), DASHES, strict=False)
@@ -138,22 +167,10 @@ def albedo(m: Reflectance, samples: int = 4096, figure: FigureBase | None = None
     axes.tick_params(labelsize=9)
     axes.grid(alpha=0.35)
     axes.legend(**LEGEND)
-    _title(drawn, m, "share of the light that is reflected", figure is None)
-    return drawn
+    return "share of the light that is reflected"
 
 
-def overview(m: Reflectance) -> FigureBase:
-    """Lobes, slices and albedo on one page."""
-    page = _figure(None, sum(PAGE_HEIGHTS))
-    page.suptitle(_name(m), fontsize=12, parse_math=False)
-    for draw, part in zip((lobes, slices, albedo), page.subfigures(3, 1, height_ratios=PAGE_HEIGHTS), strict=True):
-        draw(m, figure=part)
-    return page
-
-
-def _figure(given: Any, height: float, layout: str = "constrained") -> Any:
-    if given is not None:
-        return given
+def _figure(height: float, layout: Literal["constrained"] | None = "constrained") -> Figure:
     from matplotlib.figure import Figure
 
     return Figure((WIDTH, height), dpi=100, layout=layout)
@@ -164,8 +181,8 @@ def _name(m: Reflectance) -> str:
     return name if len(name) <= 60 else name[:57] + "…"
 
 
-def _title(figure: Any, m: Reflectance, what: str, with_name: bool) -> None:
-    figure.suptitle(f"{_name(m)}\n{what}" if with_name else what, fontsize=11, parse_math=False)
+def _title(figure: FigureBase, text: str) -> None:
+    figure.suptitle(text, fontsize=11, parse_math=False)
 
 
 def _log_range(values: Any, decades: int) -> tuple[float, int]:

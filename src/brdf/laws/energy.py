@@ -23,8 +23,8 @@ def energy(reflectance: Reflectance) -> LawResult:
     """
     wo = viewers(reflectance.isotropic, THETA_DEGREES)
     # of the base class: a model may have a parameter called `albedo`
-    albedo = Reflectance.albedo(reflectance, wo, SAMPLES)
-    error = Reflectance.albedo_error(reflectance, wo, SAMPLES)
+    albedo = reflectance.albedo(wo, SAMPLES)
+    error = reflectance.albedo_error(wo, SAMPLES)
     certain = np.nan_to_num(albedo - STANDARD_ERRORS * error, nan=np.inf)
     viewer, channel = np.unravel_index(int(np.argmax(certain)), certain.shape)
     value, limit = float(certain[viewer, channel]), 1 + TOLERANCE

@@ -1,0 +1,45 @@
+"""What the benchmarks share: direction pairs, and how a measurement is recorded.
+
+Run with `uv run --group peers pytest benchmarks --benchmark-enable -s`. Each benchmark records its error and the ratio to a peer
+measured in the same run; nothing asserts a time.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+PAIRS = 10_000_000
+
+
+@pytest.fixture(scope="session")
+def pairs() -> tuple[np.ndarray, np.ndarray]:
+    """Ten million float32 pairs on the upper hemisphere, cosines above 0.02."""
+    rng = np.random.default_rng(0)
+
+    def directions() -> np.ndarray:
+        z = rng.uniform(0.02, 1, PAIRS).astype("f4")
+        phi = rng.uniform(0, 2 * np.pi, PAIRS).astype("f4")
+        r = np.sqrt(1 - z * z)
+        return np.stack([r * np.cos(phi), r * np.sin(phi), z], -1)
+
+    return directions(), directions()
+
+
+def best_time(function: Callable[[], Any], repeats: int = 5) -> float:
+    """Seconds of the fastest call, after one to warm up."""
+    function()
+    times = []
+    for _ in range(repeats):
+        start = time.perf_counter()
+        function()
+        times.append(time.perf_counter() - start)
+    return min(times)
+
+
+def million_per_second(pairs: int, seconds: float) -> float:
+    return round(pairs / seconds / 1e6, 2)
