@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
+from brdf import Reflectance
 from brdf.errors import ParameterError, UnknownNameError
+from brdf.formula import Vec, texture1d
 from brdf.models import GGX, SGD, Lambertian, Microfacet, OrenNayar
 from brdf.models.terms.ndf import Distribution
-from brdf.parameters import Parameter, Parameterised, number, rgb, width
+from brdf.parameters import Parameter, Parameterised, Texture, choice, number, rgb, texture, width
 
 
 class Lobe(Parameterised):
@@ -169,3 +173,78 @@ def test_a_parameter_named_like_a_method_can_be_called() -> None:
         albedo = m.albedo([[0.0, 0.0, 1.0], [0.6, 0.0, 0.8]])
         np.testing.assert_allclose(albedo, [(0.2, 0.5, 0.7)] * 2, rtol=1e-6)
     assert (0.5 * m).replaced(scale=0.25).scale[0] == 0.25
+
+
+class Ramp(Parameterised):
+    """A part with a texture that is given and one that follows from a number."""
+
+    steepness = number("steepness", default=2.0)
+    curve: Any = texture("values over the cosine", default=(0.0, 1.0), channels=1, low=0.0, high=4.0)
+
+    def derived_textures(self) -> dict[str, np.ndarray]:
+        return {"line": np.linspace(0, self.steepness, 5, dtype=np.float32)[:, None]}
+
+    def value(self, cosine: Any) -> Any:
+        return texture1d(self.curve, cosine)[0] + texture1d(self.line, cosine)[0]
+
+
+class Ramped(Parameterised, Reflectance):
+    """A reflectance that has textures through its part alone."""
+
+    ramp: Any = choice("ramp", "ramp", {"ramp": Ramp, "none": None})
+
+    def f(self, wi: Vec, wo: Vec) -> Vec:
+        value = self.ramp.value(wo.z)
+        return Vec(value, value, value)
+
+    def _state(self) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+        return {}, {}
+
+
+def test_textures_of_a_part_reach_the_formula_on_every_path() -> None:
+    m = Ramped(curve=[1.0, 3.0], steepness=1.0)
+    # samples lie at texel centres: 1 at 1/4, 3 at 3/4; the line runs from 0 at 1/10 to 1 at 9/10
+    wo = np.array([0.8, 0.0, 0.6])
+    expected = 1 + 2 * (0.6 - 0.25) / 0.5 + (0.6 - 0.1) / 0.8
+    np.testing.assert_allclose(m(wo, wo), expected, rtol=1e-6)
+    many = np.tile(wo, (30_000, 1))
+    np.testing.assert_allclose(m(many, many), expected, rtol=1e-6)
+    both = 0.5 * m + m
+    np.testing.assert_allclose(both(wo, wo), 1.5 * expected, rtol=1e-6)
+    np.testing.assert_allclose(both(many, many)[-1], 1.5 * expected, rtol=1e-6)
+    assert m.textures.keys() == {"curve", "line"}
+    assert m.given_textures.keys() == {"curve"}
+    np.testing.assert_array_equal(m.curve[:, 0], [1, 3])
+
+
+def test_textures_shape_the_structure_and_survive_replacement() -> None:
+    m = Ramped(curve=[1.0, 3.0], steepness=1.0)
+    assert m.structure == Ramped(curve=[0.0, 2.0], steepness=4.0).structure
+    assert m.structure != Ramped(curve=[0.0, 2.0, 3.0]).structure
+    changed = m.replaced(steepness=3.0)
+    np.testing.assert_array_equal(changed.curve, m.curve)
+    assert changed.textures["line"][-1, 0] == 3
+    assert repr(m) == "Ramped(ramp='ramp', steepness=1, curve=array(2, 1))"
+    assert isinstance(Ramp.curve, Texture)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ([1.0, 5.0], r"curve must hold numbers in \[0, 4\]"),
+        ([1.0, float("nan")], r"curve must hold numbers in \[0, 4\]"),
+        ([1.0], r"curve must have shape \(n, 1\) with n >= 2, got \(1,\)"),
+        (np.ones((4, 3)), r"curve must have shape \(n, 1\) with n >= 2, got \(4, 3\)"),
+        (3.0, r"curve must have shape \(n, 1\) with n >= 2, got \(\)"),
+        ("red", "curve must be an array of numbers, got str"),
+        ([[1], [2, 3]], "curve must be an array of numbers, got list"),
+    ],
+)
+def test_texture_refusals(given: object, message: str) -> None:
+    with pytest.raises(ParameterError, match=f"^{message}$"):
+        Ramped(curve=given)
+
+
+def test_a_texture_of_the_other_choice() -> None:
+    with pytest.raises(ParameterError, match=r"^curve has no effect with ramp='none'; it belongs to ramp='ramp'$"):
+        Ramped(ramp="none", curve=[1, 2])

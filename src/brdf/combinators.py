@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .formula import where
 from .formula.vec import Vec
 from .geometry.sampling import MixtureSampler, Sampler
 from .parameters import RGB, Parameterised, rgb
@@ -45,10 +46,29 @@ class Sum(Reflectance):
     def children(self) -> Mapping[str, Reflectance]:
         return self._children
 
+    @property
+    def transmits(self) -> bool:  # type: ignore[override]
+        return any(lobe.transmits for lobe in self._children.values())
+
+    @property
+    def relative_index(self) -> float:
+        return next((lobe.relative_index for lobe in self._children.values() if lobe.transmits), 1.0)
+
+    def _delta_arrays(self, wi: Floats, wo: Floats) -> Floats:
+        total: Floats = np.add.reduce([lobe.delta(wi, wo) for lobe in self._children.values()])
+        return total
+
     def f(self, wi: Vec, wo: Vec) -> Vec:
-        first, *others = (getattr(self, key).f(wi, wo) for key in self.children)
+        first, *others = (self._value(getattr(self, key), wi, wo) for key in self.children)
         total: Vec = sum(others, first)
         return total
+
+    def _value(self, lobe: Any, wi: Vec, wo: Vec) -> Vec:
+        """A lobe that only reflects adds nothing below the horizon to one that transmits."""
+        value: Vec = lobe.f(wi, wo)
+        if self.transmits and not lobe.transmits:
+            value = where((wi.z > 0) & (wo.z > 0), value, 0.0 * wi.z)
+        return value
 
     def _evaluate_arrays(self, wi: Floats, wo: Floats, clamp: bool) -> Floats:
         lobe_values = (lobe(wi, wo) if clamp else lobe.raw(wi, wo) for lobe in self._children.values())
@@ -94,12 +114,24 @@ class Scaled(Parameterised, Reflectance):
         return super().values | {f"base_{k}": v for k, v in self._children["base"].values.items()}
 
     @property
-    def textures(self) -> Mapping[str, NDArray[Any]]:
+    def textures(self) -> dict[str, NDArray[Any]]:
         return {f"base_{k}": v for k, v in self._children["base"].textures.items()}
 
     @property
     def children(self) -> Mapping[str, Reflectance]:
         return self._children
+
+    @property
+    def transmits(self) -> bool:  # type: ignore[override]
+        return self._children["base"].transmits
+
+    @property
+    def relative_index(self) -> float:
+        return self._children["base"].relative_index
+
+    def _delta_arrays(self, wi: Floats, wo: Floats) -> Floats:
+        carried = self._children["base"].delta(wi, wo)
+        return carried * np.asarray(self.scale, carried.dtype)
 
     def f(self, wi: Vec, wo: Vec) -> Vec:
         value: Vec = self.scale * self.base.f(wi, wo)

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import pytest
 
 import brdf
-from brdf.errors import FormulaError
 from brdf.formula import derivative as derivative_module
 from brdf.formula import ops
+from brdf.formula.backends import backend_of
 from brdf.formula.derivative import derivative
 from brdf.formula.graph import Expr, Graph, TextureRef
+from brdf.formula.textures import lookup
 from brdf.formula.trace import component_names, parameter_values, trace
 from helpers import random_directions
 
 WI, WO = random_directions(200, 3, 0.05), random_directions(200, 4, 0.05)
 
 
-def value_of(nodes: tuple[Expr, ...], symbols: dict[str, np.ndarray]) -> list[np.ndarray]:
+def value_of(
+    nodes: tuple[Expr, ...], symbols: dict[str, np.ndarray], textures: Mapping[str, np.ndarray] = {}
+) -> list[np.ndarray]:
     """Evaluates graph nodes on NumPy."""
     known: dict[Expr, object] = {}
     special = {
@@ -28,7 +33,12 @@ def value_of(nodes: tuple[Expr, ...], symbols: dict[str, np.ndarray]) -> list[np
     for node in nodes[0].graph.nodes:
         if node.op in ("constant", "symbol"):
             known[node] = node.value if node.op == "constant" else symbols[node.value]
-        elif node.op not in ("texture", "channel"):
+        elif node.op == "texture":
+            coordinates = tuple(np.asarray(known[a]) for a in node.args)
+            known[node] = lookup(textures[node.value.name], coordinates, backend_of())
+        elif node.op == "channel":
+            known[node] = known[node.args[0]][node.value]
+        else:
             function = special.get(node.op) or getattr(ops, node.op)
             with np.errstate(all="ignore"):
                 known[node] = function(*(known[a] for a in node.args))
@@ -53,10 +63,10 @@ def test_derivatives_equal_central_differences(name):
     for parameter in names:
         if parameter not in in_graph:
             continue
-        exact = value_of(derivative(program.outputs, in_graph[parameter]), symbols | values)
+        exact = value_of(derivative(program.outputs, in_graph[parameter]), symbols | values, m.textures)
         step = 1e-6 * max(1e-2, abs(values[parameter]))
         high, low = (
-            value_of(program.outputs, symbols | values | {parameter: values[parameter] + sign * step})
+            value_of(program.outputs, symbols | values | {parameter: values[parameter] + sign * step}, m.textures)
             for sign in (1, -1)
         )
         for channel in range(3):
@@ -103,9 +113,13 @@ def test_every_rule_is_right():
     assert tested == set(derivative_module._RULES)
 
 
-def test_a_texture_coordinate_must_not_depend_on_the_parameter():
+@pytest.mark.parametrize("place", [0.05, 0.3, 0.61, 0.8, 1.2])
+def test_derivative_of_a_lookup_is_the_slope_of_the_interpolation(place):
+    data = np.random.default_rng(0).random((8, 3, 2))
     graph = Graph()
     x = graph.symbol("x")
-    channel = graph.texture(TextureRef("t", (4, 1)), x).components[0]
-    with pytest.raises(FormulaError, match="'t' depend"):
-        derivative((channel,), x)
+    fetched = tuple(graph.texture(TextureRef("t", data.shape), x * x, 0.5 * x))
+    exact = value_of(derivative(fetched, x), {"x": np.array(place)}, {"t": data})
+    high, low = (value_of(fetched, {"x": np.array(place + step)}, {"t": data}) for step in (1e-6, -1e-6))
+    np.testing.assert_allclose(exact, (np.array(high) - low) / 2e-6, rtol=1e-7, atol=1e-9)
+    assert np.all(np.abs(exact) > 0.01) or place < 0.1  # in the margin both coordinates are clamped

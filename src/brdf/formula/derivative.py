@@ -10,14 +10,12 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from ..errors import FormulaError
 from .graph import BOOLEAN_OPS, Expr, reachable
 
 
 def derivative(outputs: Sequence[Expr], symbol: Expr) -> tuple[Expr, ...]:
     """d outputs / d symbol. At a kink (minimum, maximum, abs, where) the side that is taken counts.
-
-    Raises FormulaError when a texture coordinate depends on the symbol.
+    A texture's slope is that of its linear interpolation.
     """
     graph = symbol.graph
     zero = graph.constant(0.0)
@@ -29,12 +27,29 @@ def derivative(outputs: Sequence[Expr], symbol: Expr) -> tuple[Expr, ...]:
         elif all(change is zero for change in changes):
             of[node] = zero
         elif node.op == "texture":
-            raise FormulaError(f"the coordinates of texture {node.value.name!r} depend on {symbol.value!r}")
+            of[node] = node  # not a number itself: its channels have the derivatives
+        elif node.op == "channel":
+            fetch = node.args[0]
+            of[node] = _of_channel(fetch, node.value, [of[coordinate] for coordinate in fetch.args])
         elif node.op in BOOLEAN_OPS or node.op in ("floor", "sign"):
             of[node] = zero
         else:
             of[node] = _RULES[node.op](node, node.args, changes)
     return tuple(of[output] for output in outputs)
+
+
+def _of_channel(fetch: Expr, channel: int, changes: Sequence[Expr]) -> Expr:
+    """The derivative of one channel of a linear lookup, from those of its coordinates."""
+    total = fetch.graph.constant(0.0)
+    for axis, change in enumerate(changes):
+        size = float(fetch.value.shape[axis])
+        below = fetch.graph.call("floor", fetch.args[axis] * size - 0.5)
+        ends = []
+        for centre in (0.5, 1.5):
+            shifted = [(below + centre) / size if k == axis else u for k, u in enumerate(fetch.args)]
+            ends.append(fetch.graph.texture(fetch.value, *shifted)[channel])
+        total = total + change * ((ends[1] - ends[0]) * size)
+    return total
 
 
 def _choose(node: Expr, condition: Expr, x: Expr, y: Expr) -> Any:

@@ -29,8 +29,8 @@ class Model(Parameterised, Reflectance):
 
     def _state(self) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
         numbers = {k: np.asarray(v).tolist() for k, v in self.values.items()}
-        return {"choices": self.choices, "values": numbers}, {}
+        return {"choices": self.choices, "values": numbers}, dict(self.given_textures)
 
     @classmethod
     def _restore(cls, header: Mapping[str, Any], arrays: Any, children: Any) -> Reflectance:
-        return cls(**header["choices"], **header["values"])
+        return cls(**header["choices"], **header["values"], **arrays)
