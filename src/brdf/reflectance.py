@@ -19,7 +19,7 @@ from .errors import CorruptFileError, DirectionError, ReflectanceError
 from .formula import engine
 from .formula.backends import backend_of, is_foreign
 from .formula.vec import Vec
-from .geometry.sampling import Sampler, TabulatedSampler
+from .geometry.sampling import Sampler, TabulatedSampler, event_probability
 
 Floats = NDArray[np.floating[Any]]
 
@@ -33,9 +33,9 @@ class Sample(NamedTuple):
     wi: Floats
     """(..., 3) directions"""
     weight: Floats
-    """(..., 3) f |cos| / pdf; 0 where the direction is of no use (below the horizon)"""
+    """(..., 3) f |cos| / pdf, for a delta event `delta` / pdf; 0 where the direction is of no use"""
     pdf: Floats
-    """(...) density, 1/sr"""
+    """(...) density [1/sr]; of a delta event its probability [1]"""
     is_delta: NDArray[np.bool_]
     """(...) whether the direction comes from a delta distribution (mirror, smooth refraction)"""
 
@@ -74,6 +74,11 @@ class Reflectance(ABC):
         return True
 
     @property
+    def relative_index(self) -> float:
+        """Refractive index below the surface over that above it; other than 1 for what transmits into a medium."""
+        return 1.0
+
+    @property
     def structure(self) -> tuple[Any, ...]:
         """What the traced formula depends on beside the numbers."""
         raise NotImplementedError
@@ -95,6 +100,10 @@ class Reflectance(ABC):
     def f(self, wi: Vec, wo: Vec) -> Vec:
         """The formula: one straight line from two directions to RGB [1/sr]. No guards, no batching."""
         raise ReflectanceError(f"{self.name or type(self).__name__} has no formula; bake it to a Table first")
+
+    def _delta_arrays(self, wi: Floats, wo: Floats) -> Floats:
+        """(N, 3), (N, 3) -> (N, 3), see `delta`."""
+        return np.zeros_like(wi)
 
     def _evaluate_arrays(self, wi: Floats, wo: Floats, clamp: bool) -> Floats:
         """(N, 3), (N, 3) -> (N, 3); zero below the horizon, negative values clamped on request."""
@@ -125,6 +134,14 @@ class Reflectance(ABC):
         value = self(wi, wo, uv)
         cosine = wi[..., 2:] if not isinstance(wi, (list, tuple)) else np.asarray(wi)[..., 2:]
         return value * abs(cosine) if self.transmits else value * cosine.clip(0)
+
+    def delta(self, wi: ArrayLike, wo: ArrayLike) -> Floats:
+        """What delta distributions carry from `wi` to `wo`: radiance out over radiance in, (..., 3).
+
+        A smooth mirror's reflectance where wi mirrors wo; 0 for all other pairs, and for whatever has values alone.
+        """
+        wi, wo, shape = broadcast_directions(wi, wo)
+        return self._delta_arrays(wi, wo).reshape(*shape, 3)
 
     def _guarded(self, wi: Any, wo: Any, clamp: bool) -> Any:
         if is_foreign(wi) or is_foreign(wo):
@@ -157,7 +174,10 @@ class Reflectance(ABC):
         return made
 
     def sample(self, wo: ArrayLike, u: ArrayLike) -> Sample:
-        """Directions towards the light, for viewing directions `wo` (..., 3) and numbers `u` (..., 2) in [0, 1)."""
+        """Directions towards the light, for viewing directions `wo` (..., 3) and numbers `u` (..., 2) in [0, 1).
+
+        Draws of a delta event (`is_delta`) come with the event's probability as their `pdf` and with its own weight.
+        """
         wo, u = np.asarray(wo), np.asarray(u)
         shape = np.broadcast_shapes(wo.shape[:-1], u.shape[:-1])
         wo = np.broadcast_to(as_directions("wo", wo), (*shape, 3)).reshape(-1, 3)
@@ -167,15 +187,28 @@ class Reflectance(ABC):
         usable = pdf > 0
         scale = np.where(usable, cosine / np.where(usable, pdf, 1), 0)
         weight = self(wi, wo) * scale[:, None]
+        events = np.flatnonzero(is_delta)
+        if len(events):
+            probability = event_probability(self.sampler, wi[events], wo[events])
+            carried = self._delta_arrays(wi[events], wo[events])
+            pdf[events] = probability
+            weight[events] = carried / np.where(probability > 0, probability, np.inf)[:, None]
         return Sample(wi.reshape(*shape, 3), weight.reshape(*shape, 3), pdf.reshape(shape), is_delta.reshape(shape))
 
     def pdf(self, wi: ArrayLike, wo: ArrayLike) -> Floats:
-        """Density with which `sample(wo, ·)` draws `wi` [1/sr]; integrates to at most 1 over the upper hemisphere."""
+        """Density with which `sample(wo, ·)` draws `wi` [1/sr]; delta events have none and count as 0.
+
+        Integrates to at most 1: over the upper hemisphere, or over the sphere for what transmits.
+        """
         wi, wo, shape = broadcast_directions(wi, wo)
         return self.sampler.pdf(wi, wo).reshape(shape)
 
     def albedo(self, wo: ArrayLike, samples: int = 4096) -> Floats:
-        """Directional-hemispherical reflectance, (..., 3): the share of light from `wo` that is reflected at all."""
+        """Directional-hemispherical reflectance, (..., 3): the share of light from `wo` that is reflected at all.
+
+        For what transmits, the share that is reflected or transmitted. It is a share of the flux: radiance that enters
+        a medium is the square of the index as large, which does not count.
+        """
         return self._albedo(wo, samples)[0]
 
     def albedo_error(self, wo: ArrayLike, samples: int = 4096) -> Floats:
@@ -192,10 +225,18 @@ class Reflectance(ABC):
         means = np.empty((len(views), len(points), 3))
         for start in range(0, len(views), at_once):
             block = slice(start, start + at_once)
-            means[block] = self.sample(views[block], points).weight.mean(2, np.float64)
+            drawn = self.sample(views[block], points)
+            means[block] = self._flux_shares(drawn, views[block]).mean(2, np.float64)
         replicates = means.reshape(*wo.shape[:-1], len(points), 3)
         errors = replicates.std(-2, ddof=1) / np.sqrt(len(points))
         return replicates.mean(-2).astype(wo.dtype), errors.astype(wo.dtype)
+
+    def _flux_shares(self, drawn: Sample, wo: Floats) -> Floats:
+        """The weights of samples as shares of the flux from wo to wi: radiance times (n(wi) / n(wo))²."""
+        if self.relative_index == 1:
+            return drawn.weight
+        crossed = np.where(drawn.wi[..., 2] * wo[..., 2] < 0, np.sign(wo[..., 2]), 0)
+        return drawn.weight * (self.relative_index ** (2 * crossed))[..., None].astype(wo.dtype)
 
     # ---- combination and storage -----------------------------------------------------------------------------
 

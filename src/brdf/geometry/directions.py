@@ -79,6 +79,20 @@ def reflected(w: Floats, h: Floats) -> Floats:
     return 2 * dot(w, h)[..., None] * h - w
 
 
+def refracted(w: Floats, eta: float) -> Floats:
+    """Where `w` (..., 3) continues beyond the plane z = 0 by Snell's law, pointing away from the plane like `w`.
+
+    `eta`: refractive index below the plane over that above. The mirrored direction where total internal reflection
+    leaves no other.
+    """
+    ratio = np.where(w[..., 2] > 0, 1 / eta, eta).astype(w.dtype)  # n(w) / n(beyond) = sin(beyond) / sin(w)
+    sine2 = ratio**2 * (w[..., 0] ** 2 + w[..., 1] ** 2)
+    z = -np.copysign(np.sqrt(np.maximum(1 - sine2, 0)), w[..., 2])
+    beyond = np.stack([-ratio * w[..., 0], -ratio * w[..., 1], z], axis=-1)
+    mirrored = w * np.array([-1, -1, 1], w.dtype)
+    return np.where((sine2 < 1)[..., None], beyond, mirrored)
+
+
 def rotated(w: ArrayLike, angle: ArrayLike) -> Floats:
     """Directions (..., 3) turned by `angle` (...) [rad] about the normal, from +x towards +y."""
     w, angle = _floats(w), _floats(angle)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,7 +12,10 @@ from ..errors import ParameterError
 from .directions import cosine_weighted, normalized, reflected
 from .tabulated_sampler import TabulatedSampler
 
-__all__ = ["CosineSampler", "GGXSampler", "MixtureSampler", "Sampler", "TabulatedSampler"]
+__all__ = [
+    "CosineSampler", "DeltaSampler", "GGXSampler", "MirrorSampler", "MixtureSampler", "Sampler", "TabulatedSampler",
+    "event_probability", "same_direction",
+]  # fmt: skip
 
 Floats = NDArray[np.floating[Any]]
 
@@ -32,8 +35,49 @@ class Sampler(Protocol):
         ...
 
     def pdf(self, wi: Floats, wo: Floats) -> Floats:
-        """(N, 3), (N, 3) -> (N,) density of `sample`, 1/sr."""
+        """(N, 3), (N, 3) -> (N,) density of `sample`, 1/sr; delta events have none and count as 0."""
         ...
+
+
+@runtime_checkable
+class DeltaSampler(Sampler, Protocol):
+    """A sampler some of whose draws are delta events: each of them has a probability instead of a density."""
+
+    def event_probability(self, wi: Floats, wo: Floats) -> Floats:
+        """(N, 3), (N, 3) -> (N,) probability that `sample` draws the delta event `wi`; 0 where there is none."""
+        ...
+
+
+def event_probability(sampler: Sampler, wi: Floats, wo: Floats) -> Floats:
+    """(N,) probability of the delta events `wi` (N, 3), seen from `wo` (N, 3), under any sampler."""
+    if isinstance(sampler, DeltaSampler):
+        return sampler.event_probability(wi, wo)
+    return np.zeros(len(wi), wi.dtype)
+
+
+def same_direction(a: Floats, b: Floats) -> NDArray[np.bool_]:
+    """(N,) whether two directions (N, 3) are the same up to the rounding of single precision."""
+    difference = a - b
+    return np.asarray(np.einsum("ij,ij->i", difference, difference) < SAME_DIRECTION**2)
+
+
+SAME_DIRECTION = 1e-5
+"""Chord below which directions of delta events are one. What events of two lobes that lie closer carry is added up
+whichever is drawn, so that no light is lost or doubled."""
+
+
+class MirrorSampler:
+    """The one delta event of a mirror: the direction that mirrors `wo` in the normal."""
+
+    def sample(self, wo: Floats, u: Floats) -> tuple[Floats, NDArray[np.bool_]]:
+        return wo * np.array([-1, -1, 1], wo.dtype), np.ones(len(wo), bool)
+
+    def pdf(self, wi: Floats, wo: Floats) -> Floats:
+        return np.zeros(len(wi), wi.dtype)
+
+    def event_probability(self, wi: Floats, wo: Floats) -> Floats:
+        mirrored, _ = self.sample(wo, wo)
+        return same_direction(wi, mirrored).astype(wi.dtype)
 
 
 class CosineSampler:
@@ -86,7 +130,8 @@ class GGXSampler:
 class MixtureSampler:
     """Chooses one of several samplers with fixed weights; its density is the weighted sum of theirs.
 
-    `weights` need not sum to 1; where all are 0 the choice is even. Raises ParameterError.
+    So is the probability of a delta event. `weights` need not sum to 1; where all are 0 the choice is even. Raises
+    ParameterError.
     """
 
     def __init__(self, samplers: Sequence[Sampler], weights: Sequence[float]) -> None:
@@ -117,4 +162,10 @@ class MixtureSampler:
         for sampler, share in zip(self._samplers, self._shares, strict=True):
             if share > 0:
                 total += wi.dtype.type(share) * sampler.pdf(wi, wo)
+        return total
+
+    def event_probability(self, wi: Floats, wo: Floats) -> Floats:
+        total = np.zeros(len(wi), wi.dtype)
+        for sampler, share in zip(self._samplers, self._shares, strict=True):
+            total += wi.dtype.type(share) * event_probability(sampler, wi, wo)
         return total

@@ -23,7 +23,7 @@ def density(reflectance: Reflectance) -> LawResult:
     `value` is the largest integral over several viewing directions; infinite where a density is below zero or not
     finite.
     """
-    wo = viewers(reflectance.isotropic, THETA_DEGREES)
+    wo = viewers(reflectance.isotropic, THETA_DEGREES, reflectance.transmits)
     integrals = []
     for seed, viewer in enumerate(wo):
         drawn = reflectance.sample(viewer, np.random.default_rng(seed).random((SAMPLES, 2)))

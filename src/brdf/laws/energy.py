@@ -17,11 +17,12 @@ STANDARD_ERRORS = 4
 
 @law("energy")
 def energy(reflectance: Reflectance) -> LawResult:
-    """The directional albedo is at most 1, from the normal to 89 degrees.
+    """The directional albedo is at most 1, from the normal to 89 degrees; for what transmits, from below as well.
 
+    It counts flux: the radiance that enters a medium grows by the square of the index, and is divided by it.
     `value` is the largest channel's albedo less 4 standard errors of its estimate, which is what is known for sure.
     """
-    wo = viewers(reflectance.isotropic, THETA_DEGREES)
+    wo = viewers(reflectance.isotropic, THETA_DEGREES, reflectance.transmits)
     # of the base class: a model may have a parameter called `albedo`
     albedo = reflectance.albedo(wo, SAMPLES)
     error = reflectance.albedo_error(wo, SAMPLES)

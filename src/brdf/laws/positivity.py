@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..reflectance import Reflectance
-from .probes import adversarial, pairs, place
+from .probes import adversarial, over_the_sphere, pairs, place
 from .result import LawResult, law, rests_on_data
 
 PAIRS = 50_000
@@ -19,6 +19,8 @@ def positivity(reflectance: Reflectance) -> LawResult:
     note counts them. A formula must not go below zero to begin with.
     """
     wi, wo = (np.concatenate([a, b]) for a, b in zip(pairs(PAIRS), adversarial(), strict=True))
+    if reflectance.transmits:
+        wi, wo = over_the_sphere(wi, wo)
     raw, value = reflectance.raw(wi, wo), reflectance(wi, wo)
     single = reflectance(wi.astype(np.float32), wo.astype(np.float32))
     negative = (raw < 0).any(-1)

@@ -54,9 +54,20 @@ def adversarial() -> tuple[Floats, Floats]:
     return wi, wo
 
 
-def viewers(isotropic: bool, theta_degrees: tuple[float, ...]) -> Floats:
-    """Viewing directions (N, 3) at polar angles [degrees], each at an azimuth of its own, or three."""
+def over_the_sphere(wi: Floats, wo: Floats) -> tuple[Floats, Floats]:
+    """Pairs above the horizon (N, 3) as pairs on all sides, (4 N, 3): for what transmits."""
+    flip = np.array([1, 1, -1])
+    return np.concatenate([wi, wi, wi * flip, wi * flip]), np.concatenate([wo, wo * flip, wo, wo * flip])
+
+
+def viewers(isotropic: bool, theta_degrees: tuple[float, ...], below: bool = False) -> Floats:
+    """Viewing directions (N, 3) at polar angles [degrees], each at an azimuth of its own, or three.
+
+    With `below` as many more follow below the horizon.
+    """
     theta = np.radians(theta_degrees)
+    if below:
+        theta = np.concatenate([theta, np.pi - theta])
     phi = 0.3 + 2.4 * np.arange(len(theta))
     turns = np.zeros(1) if isotropic else np.array([0, np.pi / 3, 2 * np.pi / 3])
     return from_spherical(theta[:, None], phi[:, None] + turns).reshape(-1, 3)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..reflectance import Reflectance
+from ..reflectance import Reflectance, Sample
 from .cells import Cells, Floats, counted
 from .probes import place, viewers
 from .result import LawResult, law
@@ -27,9 +27,9 @@ def sampling(reflectance: Reflectance) -> LawResult:
 
     `value` is the smallest p-value, `limit` the significance 0.001 in Šidák's correction for the number of viewing
     directions. What is drawn below the horizon counts as a cell of its own, whose probability the density leaves
-    over. Delta events have no density and are left out. References: Pearson1900, Sidak1967.
+    over. A delta event is a cell of its own, too, with its probability. References: Pearson1900, Sidak1967.
     """
-    wo = viewers(reflectance.isotropic, THETA_DEGREES)
+    wo = viewers(reflectance.isotropic, THETA_DEGREES, reflectance.transmits)
     p_values = [chi_squared_p(*_counts(reflectance, viewer, seed)) for seed, viewer in enumerate(wo)]
     limit = 1 - (1 - SIGNIFICANCE) ** (1 / len(wo))
     worst = int(np.argmin(p_values))
@@ -44,13 +44,25 @@ def _counts(reflectance: Reflectance, viewer: Floats, seed: int) -> tuple[Floats
     much that should be.
     """
     drawn = reflectance.sample(viewer, np.random.default_rng(seed).random((SAMPLES, 2)))
-    smooth = drawn.wi[~drawn.is_delta]
+    # a lobe that only reflects, beside one that transmits, has nothing to draw for a viewer below
+    of_use = (drawn.pdf > 0) | (viewer[2] > 0)
+    smooth = drawn.wi[~drawn.is_delta & of_use]
     cells = cells_of(reflectance, viewer, smooth)
-    expected, outside = SAMPLES * cells.probability, len(smooth) - cells.counts.sum()
-    leftover = len(smooth) - expected.sum()
+    probabilities, events = _events(drawn)
+    expected = SAMPLES * np.concatenate([cells.probability, probabilities])
+    observed = np.concatenate([cells.counts, events]).astype(np.float64)
+    leftover, outside = SAMPLES - expected.sum(), SAMPLES - observed.sum()
     if max(leftover, outside) < (CERTAIN * SAMPLES * cells.error) ** 2:
-        return expected, cells.counts.astype(np.float64)
-    return np.append(expected, max(leftover, 0.0)), np.append(cells.counts, float(outside))
+        return expected, observed
+    return np.append(expected, max(leftover, 0.0)), np.append(observed, outside)
+
+
+def _events(drawn: Sample) -> tuple[Floats, Floats]:
+    """Probability and number of draws of each delta event that was drawn, told apart by direction."""
+    events = drawn.is_delta & (drawn.pdf > 0)
+    wi, probability = drawn.wi[events], drawn.pdf[events]
+    _, first, counts = np.unique(np.round(wi, 6), axis=0, return_index=True, return_counts=True)
+    return probability[first], counts.astype(np.float64)
 
 
 def cells_of(reflectance: Reflectance, viewer: Floats, samples: Floats) -> Cells:

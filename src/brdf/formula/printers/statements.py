@@ -81,7 +81,9 @@ class Statements:
         if node.op in _OPERATORS:
             sign, level = _OPERATORS[node.op]
             left, right = node.args
-            comparison = level <= 3
+            if node.op in ("and", "or"):  # languages differ in whether these bind more tightly than comparisons
+                return f"{self._argument(left, _ATOM)} {sign} {self._argument(right, _ATOM)}", level
+            comparison = level == 3
             return (
                 f"{self._argument(left, level + comparison)} {sign} {self._argument(right, level + 1)}",
                 level,
