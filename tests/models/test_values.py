@@ -66,6 +66,51 @@ CASES = [
         0.32179460125145,
         "kd/pi + D / (pi cos 60) with D = K exp(-1 - tan^2 30) / (pi cos^4 30); G1 = 1, F = 1",
     ),
+    Case(models.Mirror(), direction(40), direction(40, 180), 0.0, "a delta distribution has no value"),
+    Case(models.SmoothConductor(), direction(40), direction(40, 180), 0.0, "a delta distribution has no value"),
+    Case(models.SmoothDielectric(), direction(40), direction(40, 180), 0.0, "a delta distribution has no value"),
+    Case(
+        models.OrenNayarFull(albedo=0.5, sigma=0.3),
+        direction(30),
+        direction(60, 90),
+        0.14812809815102193,
+        "0.5/pi (C1 + C3 tan 45) + 0.17 0.25/pi 0.09/0.22: C1 = 1 - 0.045/0.42, C3 = 0.125 / 2 (2/9)^2",
+    ),
+    Case(
+        models.OrenNayarFull(albedo=0.5, sigma=0.3),
+        direction(30),
+        direction(60, 180),
+        0.13111259949558057,
+        "cos(dphi) = -1: 0.5/pi (C1 - 0.225 (sin 60 - 1/27) tan 30) + 0.17 0.25/pi 0.09/0.22 (1 + 1/9)",
+    ),
+    Case(
+        models.CoupledDiffuse(albedo=0.5, F0=0.04),
+        Z,
+        direction(60),
+        0.1554148019292358,
+        "0.5 21 0.96 / (20 pi) (1 - 1/32)",
+    ),
+    Case(
+        models.DisneyDiffuse(albedo=0.5, roughness=1.0),
+        direction(60),
+        direction(60),
+        0.17442542469226519,
+        "retroreflection: 0.5/pi (1 + 1.5/32)^2",
+    ),
+    Case(
+        models.EON(rho=1.0, roughness=1.0),
+        Z,
+        Z,
+        0.34225945236097766,
+        "A/pi + (1 - A)^2 / (pi (1 - E_mean)): A = 1 / (3/2 - 2/(3 pi)), E_mean = A (5/3 - 28/(15 pi))",
+    ),
+    Case(
+        models.KelemenDiffuse(albedo=0.5, specular_albedo=[[0.25] * 3, [1.0] * 3]),
+        direction(60),
+        direction(60, 100),
+        0.08952465548919113,
+        "1 - a = 3/4 (1 - cos), its mean is 1/4: 0.5/pi (3/2 (1 - 1/2))^2",
+    ),
 ]
 
 
