@@ -22,6 +22,8 @@ class TextureRef:
 
     name: str
     shape: tuple[int, ...]
+    graph: Graph | None = field(default=None, compare=False, repr=False)
+    """Where a lookup at a constant place becomes a node."""
 
     @property
     def channels(self) -> int:

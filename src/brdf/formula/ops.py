@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from .backends import backend_of
-from .graph import Expr
+from .graph import Expr, TextureRef
 from .textures import lookup
 from .vec import Scalar, Vec, elementwise
 
@@ -161,6 +161,8 @@ def _texture(data: Any, *coordinates: Scalar) -> Vec:
     for u in coordinates:
         if isinstance(u, Expr):
             return u.graph.texture(data, *coordinates)
+    if isinstance(data, TextureRef) and data.graph is not None:
+        return data.graph.texture(data, *coordinates)
     return lookup(data, coordinates, backend_of(*coordinates))
 
 

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..errors import ParameterError
 from ..formula import Vec, dot, normalize
 from ..geometry.sampling import Sampler
 from ..parameters import choice
 from .model import Model
 from .terms import ndf as distributions
-from .terms.fresnel import Conductor, Dielectric, Schlick
-from .terms.masking import SmithCorrelated, SmithSeparable
-
-DISTRIBUTIONS = {"ggx": distributions.GGX, "beckmann": distributions.Beckmann}
+from .terms.fresnel import TERMS as FRESNEL_TERMS
+from .terms.fresnel import Schlick
+from .terms.masking import MASKINGS, SmithCorrelated
 
 
 class Microfacet(Model):
@@ -21,14 +21,21 @@ class Microfacet(Model):
         f(wi, wo) = D(h) G(wi, wo) F(wi . h) / (4 cos_i cos_o)      [1/sr],   h = (wi + wo) / |wi + wo|
 
     Freely mixed from a distribution D (`ndf`), a masking term G (`masking`) and a Fresnel term F (`fresnel`); their
-    parameters are given beside the choices. References: Torrance1967, Walter2007, Heitz2014.
+    parameters are given beside the choices. G may also be given as `visibility`, the name for G / (cos_i cos_o).
+    References: Torrance1967, Walter2007, Heitz2014, AkenineMoller2008.
     """
 
-    ndf: Any = choice("distribution of facet normals", "ggx", DISTRIBUTIONS)
-    masking: Any = choice("masking-shadowing", "smith", {"smith": SmithCorrelated, "smith-separable": SmithSeparable})
-    fresnel: Any = choice(
-        "Fresnel reflectance", "schlick", {"schlick": Schlick, "dielectric": Dielectric, "conductor": Conductor}
-    )
+    ndf: Any = choice("distribution of facet normals", "ggx", distributions.DISTRIBUTIONS)
+    masking: Any = choice("masking-shadowing", "smith", MASKINGS)
+    fresnel: Any = choice("Fresnel reflectance", "schlick", FRESNEL_TERMS)
+
+    def __init__(self, **given: Any) -> None:
+        if "visibility" in given:
+            if "masking" in given:
+                raise ParameterError("visibility and masking are two names of one choice; give one of them")
+            given["masking"] = given.pop("visibility")
+        super().__init__(**given)
+        vars(self)["breaks"] = type(self).breaks | self._parts["masking"].breaks
 
     @property
     def isotropic(self) -> bool:

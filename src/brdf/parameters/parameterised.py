@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, ClassVar
 
 import numpy as np
@@ -96,7 +96,7 @@ class Parameterised:
 
     @cached_property
     def _own_textures(self) -> dict[str, NDArray[np.float32]]:
-        return self._given_textures | self.derived_textures()
+        return self._given_textures | _derived_textures(_Content(self))
 
     @property
     def textures(self) -> dict[str, NDArray[Any]]:
@@ -167,3 +167,23 @@ class Parameterised:
         shown += [f"{k}={plain(np.asarray(v))}" for k, v in self.values.items()]
         shown += [f"{k}=array{v.shape}" for k, v in self.given_textures.items()]
         return f"{type(self).__name__}({', '.join(shown)})"
+
+
+class _Content:
+    """What derived textures depend on, as a key: equal contents have equal textures."""
+
+    def __init__(self, owner: Parameterised) -> None:
+        numbers = tuple((name, np.asarray(value).tobytes()) for name, value in owner._values.items())
+        arrays = tuple((name, data.shape, data.tobytes()) for name, data in owner._given_textures.items())
+        self.owner, self._key = owner, (type(owner), tuple(owner._chosen.items()), numbers, arrays)
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Content) and self._key == other._key
+
+
+@lru_cache(maxsize=64)
+def _derived_textures(content: _Content) -> dict[str, NDArray[np.float32]]:
+    return content.owner.derived_textures()
