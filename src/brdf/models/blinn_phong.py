@@ -1,11 +1,13 @@
-"""Blinn's highlight: a power of the cosine between normal and half vector, normalised."""
+"""Blinn's highlight: a power of the cosine between normal and half vector, normalised and as shading had it."""
 
 from __future__ import annotations
 
-from ..formula import Vec, dot, exp, pi
+from typing import ClassVar
+
+from ..formula import Vec, exp, pi
 from ..parameters import RGB, Scalar, albedo, number
 from .model import Model
-from .terms.powers import power_of_one_minus
+from .terms.cosine_lobes import half_lobe
 
 LOG_2 = 0.6931471805599453
 
@@ -23,8 +25,26 @@ class BlinnPhong(Model):
     n: Scalar = number("exponent", default=50.0, low=0.0, high=1e6)
 
     def f(self, wi: Vec, wo: Vec) -> Vec:
-        h = wi + wo
-        sin2_h = (h.x * h.x + h.y * h.y) / dot(h, h)
-        lobe = power_of_one_minus(sin2_h, 0.5 * self.n)
         norm = (self.n + 2.0) * (self.n + 4.0) / (8.0 * pi * (exp(-0.5 * LOG_2 * self.n) + self.n))
-        return self.ks * (norm * lobe)
+        return self.ks * (norm * half_lobe(wi, wo, self.n))
+
+
+class BlinnPhongOriginal(Model):
+    """Shading with Blinn's highlight, read as a BRDF: `Phong` with the half vector in place of the mirror direction.
+
+        f(wi, wo) = kd + ks cos^n(theta_h) / cos_i      [1/sr]
+
+    kd and ks are brightnesses, not albedos. References: Phong1975, Blinn1977.
+    """
+
+    breaks: ClassVar = {
+        "reciprocity": "only the cosine of the light's angle divides the highlight [Lewis1994]",
+        "energy": "kd and ks are brightnesses without a normalisation [Lewis1994]",
+    }
+
+    kd: RGB = albedo("diffuse brightness: reflected radiance over irradiance", default=0.5)
+    ks: RGB = albedo("brightness of the highlight", default=0.5)
+    n: Scalar = number("exponent", default=50.0, low=0.0, high=1e6)
+
+    def f(self, wi: Vec, wo: Vec) -> Vec:
+        return self.kd + self.ks * (half_lobe(wi, wo, self.n) / wi.z)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ..formula import Vec, minimum, pi, where
+from ..formula import Vec, pi
 from ..parameters import RGB, Scalar, albedo, number
 from .model import Model
-from .terms.powers import power_of_one_minus
+from .terms.cosine_lobes import mirror_lobe
 
 
 class ModifiedPhong(Model):
@@ -21,8 +21,4 @@ class ModifiedPhong(Model):
     n: Scalar = number("exponent", default=50.0, low=0.0, high=1e6)
 
     def f(self, wi: Vec, wo: Vec) -> Vec:
-        # 1 - r . wo, from the chord between the two unit vectors: keeps its digits inside a sharp lobe
-        x, y, z = wo.x + wi.x, wo.y + wi.y, wo.z - wi.z
-        one_minus_cosine = 0.5 * (x * x + y * y + z * z)
-        lobe = power_of_one_minus(minimum(one_minus_cosine, 1.0), self.n)
-        return self.ks * ((self.n + 2.0) / (2.0 * pi) * where(one_minus_cosine < 1.0, lobe, 0.0 * lobe))
+        return self.ks * ((self.n + 2.0) / (2.0 * pi) * mirror_lobe(wi, wo, self.n))
