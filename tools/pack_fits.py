@@ -15,9 +15,6 @@ import sys
 from pathlib import Path
 
 TARGET = Path(__file__).parents[1] / "src/brdf/materials/data/fits.json"
-PACKED = ("bagher_sgd",)
-"""The fits whose model the package has."""
-
 LINE = re.compile(r"(\S+) = Aggregate\(Lambertian\(albedo = (\[[^]]*\])\), \w+\((.*)\)\)")
 PARAMETER = re.compile(r"(\w+) = (\[\[.*?\]\]|\[.*?\]|[^,]+)")
 
@@ -43,7 +40,9 @@ def columns(file: Path) -> dict[str, list[object]]:
 def main() -> None:
     if len(sys.argv) != 2:
         sys.exit(__doc__)
-    tables = {fit: columns(Path(sys.argv[1]) / f"{fit}.fit") for fit in PACKED}
+    tables = {file.stem: columns(file) for file in sorted(Path(sys.argv[1]).glob("*.fit"))}
+    if not tables:
+        sys.exit(f"{sys.argv[1]}: no *.fit files")
     TARGET.write_text(json.dumps(tables, separators=(",", ":"), allow_nan=False) + "\n")
 
 

@@ -80,6 +80,19 @@ def test_info_of_a_material_names_its_source(brdf: Command) -> None:
     assert described["source"]
 
 
+def test_info_of_a_material_lists_its_fits_with_errors_and_the_best(brdf: Command) -> None:
+    out = brdf("info", "gold-metallic-paint@ngan_ward").out
+    rows = [line.split() for line in out.splitlines()]
+    fits = [row for row in rows if row and row[0].startswith(("bagher_", "low_", "ngan_")) and len(row) == 2]
+    errors = [float(error) for _, error in fits]
+    assert len(fits) == 14
+    assert errors == sorted(errors)
+    assert f"{fits[0][0]} agrees best" in out
+    described = json.loads(brdf("info", "white-fabric2", "--json").out)
+    assert described["fits"][0] == {"fit": "bagher_sgd", "error": None}
+    assert "fits" not in json.loads(brdf("info", "GGX", "--json").out)
+
+
 def test_info_of_a_merl_file_gives_format_grid_and_invalid_share(brdf: Command) -> None:
     assert brdf("convert", "Lambertian:albedo=.3", "plain.binary").code == 0
     described = json.loads(brdf("info", "plain.binary", "--json").out)

@@ -9,15 +9,17 @@ import pytest
 
 from brdf import materials
 from brdf.errors import UnknownNameError
+from brdf.materials import catalogue
 from brdf.models import SGD
 from brdf.reflectance import Reflectance
 
 
 def test_the_hundred_names() -> None:
-    names = materials.names()
+    names = catalogue.names()
     assert len(names) == 100
     assert names == sorted(set(names))
     assert {"gold-metallic-paint", "blue-metallic-paint2", "special-walnut-224", "teflon"} <= set(names)
+    assert set(names) <= set(materials.names())
     assert all(materials.fits(name)[0] == "bagher_sgd" for name in names)
 
 
@@ -32,10 +34,10 @@ def test_a_row_is_the_published_one() -> None:
 
 def test_huge_rates_survive() -> None:
     """Eight materials have c beyond single precision, one 1.6e109; all values handed to a kernel fit in it."""
-    largest = {name: materials.get(name).log_c.max() for name in materials.names()}
+    largest = {name: materials.get(name).log_c.max() for name in catalogue.names()}
     assert max(largest.values()) == pytest.approx(np.log(1.63655e109))
     assert sum(value > np.log(3.4e38) for value in largest.values()) >= 8
-    for name in materials.names():
+    for name in catalogue.names():
         for key, value in materials.get(name).values.items():
             assert np.isfinite(np.float32(value)).all(), (name, key)
 
@@ -52,19 +54,33 @@ def test_provenance() -> None:
     assert "Pieter Peers" in licence
 
 
+@pytest.mark.parametrize("fit", catalogue._FITS)
+def test_every_fit_of_one_material(fit: str) -> None:
+    m = materials.get(f"gold-metallic-paint@{fit}")
+    assert m.name == "gold-metallic-paint"
+    assert m.source.startswith(f"{fit}: ")
+    assert materials.published(fit).citation in m.source
+    kinds = {type(part).__name__ for part in (m, *m.children.values())}
+    kinds |= {type(inner).__name__ for part in m.children.values() for inner in part.children.values()}
+    assert materials.published(fit).model in kinds
+
+
 def test_unknown_names() -> None:
     with pytest.raises(UnknownNameError, match="unknown material 'gold-metalic-paint': did you mean 'gold-metallic-pa"):
         materials.get("gold-metalic-paint")
     with pytest.raises(UnknownNameError, match="unknown fit of chrome 'bager_sgd': did you mean 'bagher_sgd'"):
         materials.get("chrome@bager_sgd")
+    with pytest.raises(UnknownNameError, match="unknown fit of chrome 'ngan_wart': did you mean 'ngan_ward"):
+        materials.get("chrome@ngan_wart")
     with pytest.raises(UnknownNameError, match="unknown material 'x'"):
         materials.fits("x")
-    with pytest.raises(UnknownNameError, match="unknown fit 'x': known: bagher_sgd"):
+    with pytest.raises(UnknownNameError, match="unknown fit 'x': 14 are known"):
         materials.published("x")
 
 
-def test_a_material_saves_and_restores(tmp_path: object) -> None:
-    m = materials.get("ss440")
+@pytest.mark.parametrize("name", ["ss440", "chrome@ngan_he", "chrome@low_lowsmooth_E2"])
+def test_a_material_saves_and_restores(name: str, tmp_path: object) -> None:
+    m = materials.get(name)
     m.save(f"{tmp_path}/m.safetensors")
     back = Reflectance.restore(f"{tmp_path}/m.safetensors")
-    assert (back.name, back.source, repr(back)) == (m.name, m.source, repr(m))
+    assert (back.name, back.source, back.state()[0]) == (m.name, m.source, m.state()[0])

@@ -1,5 +1,8 @@
-"""Named materials: the published fits to the MERL measurements, as data with their source and licence."""
+"""Named materials, as data with their source and licence: published fits to the MERL measurements, measured metals."""
 
-from .catalogue import Fit, fits, get, names, published
+from . import krivanek, metals
+from .catalogue import Fit, published
+from .comparison import agreement, metric
+from .providers import fits, get, names
 
-__all__ = ["Fit", "fits", "get", "names", "published"]
+__all__ = ["Fit", "agreement", "fits", "get", "krivanek", "metals", "metric", "names", "published"]

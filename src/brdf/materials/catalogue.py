@@ -1,8 +1,8 @@
 """The shipped materials by name, and what is known of each published fit.
 
 The numbers are in `data/fits.json`, packed by `tools/pack_fits.py` from the tables of github.com/bsdfbenchmark/bbm
-(licence beside the data): for every fit a column a parameter, in the order of its materials. The measurements
-themselves (Matusik2003) are not shipped.
+(licence beside the data): for every fit a column a parameter, in the order of its materials; what they mean is in
+`conventions`. The measurements themselves (Matusik2003) are not shipped.
 """
 
 from __future__ import annotations
@@ -12,16 +12,11 @@ import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from importlib import resources
-from typing import Any
-
-import numpy as np
 
 from ..errors import UnknownNameError
-from ..models.sgd import SGD
 from ..reflectance import Reflectance
-
-Row = dict[str, Any]
-"""One material's parameters as published: numbers and lists of three."""
+from . import conventions, providers
+from .conventions import Row
 
 
 @dataclass(frozen=True)
@@ -30,6 +25,7 @@ class Fit:
 
     name: str
     model: str
+    """The model of its lobe."""
     citation: str
     """Key into docs/references.bib."""
     title: str
@@ -44,22 +40,27 @@ class Fit:
         )
 
 
-def _sgd(row: Row) -> Reflectance:
-    F0, F1 = row["eta"]
-    same = {name: row[name] for name in ("kd", "alpha", "p", "K", "Lambda", "k", "theta0")}
-    return SGD(**same, ks=row["albedo"], F0=F0, F1=F1, log_c=np.log(row["c"]))
-
+_BAGHER = "Accurate fitting of measured reflectances using a Shifted Gamma micro-facet distribution"
+_LOW = "BRDF models for accurate and efficient rendering of glossy surfaces"
+_NGAN = "Experimental analysis of BRDF models"
 
 _FITS = {
     fit.name: fit
     for fit in (
-        Fit(
-            "bagher_sgd",
-            "SGD",
-            "Bagher2012",
-            "Accurate fitting of measured reflectances using a Shifted Gamma micro-facet distribution",
-            _sgd,
-        ),
+        Fit("bagher_sgd", "SGD", "Bagher2012", _BAGHER, conventions.sgd),
+        Fit("low_lowmicrofacet_E2", "LowMicrofacet", "Low2012", _LOW, conventions.low_microfacet),
+        Fit("low_lowsmooth_E2", "LowSmooth", "Low2012", _LOW, conventions.low_smooth),
+        Fit("low_cooktorrance_E2", "CookTorrance", "Low2012", _LOW, conventions.low_cook_torrance),
+        Fit("low_cooktorrance_E1", "CookTorrance", "Low2012", _LOW, conventions.low_cook_torrance),
+        Fit("low_ashikhminshirley_E2", "AshikhminShirley", "Low2012", _LOW, conventions.low_ashikhmin_shirley),
+        Fit("low_ashikhminshirley_E1", "AshikhminShirley", "Low2012", _LOW, conventions.low_ashikhmin_shirley),
+        Fit("ngan_cooktorrance", "CookTorrance", "Ngan2005", _NGAN, conventions.ngan_cook_torrance),
+        Fit("ngan_ashikhminshirley", "AshikhminShirley", "Ngan2005", _NGAN, conventions.ngan_ashikhmin_shirley),
+        Fit("ngan_he", "HeTorrance", "Ngan2005", _NGAN, conventions.ngan_he),
+        Fit("ngan_lafortune", "Lafortune", "Ngan2005", _NGAN, conventions.ngan_lafortune),
+        Fit("ngan_wardduer", "WardDuer", "Ngan2005", _NGAN, conventions.ngan_ward_duer),
+        Fit("ngan_ward", "Ward", "Ngan2005", _NGAN, conventions.ngan_ward),
+        Fit("ngan_blinnphong", "BlinnPhong", "Ngan2005", _NGAN, conventions.ngan_blinn_phong),
     )
 }
 """In order of preference: the first that has a material is what its bare name stands for."""
@@ -112,3 +113,6 @@ def get(name: str, fit: str | None = None) -> Reflectance:
         raise UnknownNameError(f"fit of {name}", wanted, available)
     made = _FITS[wanted].make(_tables()[wanted][name])
     return made.named(name, f"{wanted}: {_FITS[wanted].source}")
+
+
+providers.register(names, fits, get)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 import os
+import textwrap
 from typing import TYPE_CHECKING, Any
 
 from .. import arguments, output
@@ -26,7 +27,7 @@ def command(material: arguments.Material, json: arguments.AsJson = False) -> Non
       brdf info measured.binary --json
     """
     m = arguments.load(material)
-    described = describe(m) | _file(material)
+    described = describe(m) | _file(material) | _fits(material)
     if json:
         output.print_json(described)
     else:
@@ -70,6 +71,19 @@ def _file(spec: str) -> dict[str, Any]:
     if not os.path.isfile(spec):
         return {}
     return {"file": {"path": spec, "format": io.format_of(spec).name, "bytes": os.path.getsize(spec)}}
+
+
+def _fits(spec: str) -> dict[str, Any]:
+    """The published fits of a shipped material, with their errors where they are known."""
+    from ... import materials
+    from ...materials import catalogue
+
+    name = spec.partition("@")[0]
+    if os.path.exists(spec) or name not in catalogue.names():
+        return {}
+    errors = materials.agreement(name)
+    ordered = errors or catalogue.fits(name)
+    return {"fits": [{"fit": fit, "error": errors.get(fit)} for fit in ordered], "fit_metric": materials.metric()}
 
 
 def _choices(m: Any) -> dict[str, dict[str, Any]]:
@@ -146,6 +160,25 @@ def _print(d: dict[str, Any], indent: str = "") -> None:
     for key, lobe in d.get("lobes", {}).items():
         print(f"\n{indent}{key}:")
         _print(lobe, indent + "  ")
+    if "fits" in d:
+        _print_fits(d)
+
+
+def _print_fits(d: dict[str, Any]) -> None:
+    """All fits of the material, the best agreeing one first."""
+    known = [fit for fit in d["fits"] if fit["error"] is not None]
+    errors = [f"{fit['error']:.3f}" if fit in known else "" for fit in d["fits"]]
+    print(f"\npublished fits, as {d['name']}@FIT:")
+    output.print_table(("fit", "error"), [(f["fit"], e) for f, e in zip(d["fits"], errors, strict=True)], "  ")
+    if not known:
+        print("  No network of this material is known to compare them with.")
+        return
+    share = math.expm1(known[0]["error"])
+    text = (
+        f"{known[0]['fit']} agrees best: half of its values are within {share:.0%} of a network fitted to the "
+        f"measurement. error = {d['fit_metric']}."
+    )
+    print(textwrap.fill(text, 100, initial_indent="  ", subsequent_indent="  "))
 
 
 def _cells(p: dict[str, Any]) -> tuple[str, ...]:
