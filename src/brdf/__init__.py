@@ -11,7 +11,10 @@ from typing import Any
 __version__ = "0.1.0"
 
 _NAMES = {
+    "BTF": "representations.btf",
     "Reflectance": "reflectance",
+    "SpatiallyVarying": "combinators",
+    "TwoSided": "combinators",
     "SliceStack": "representations.slice_stack",
     "Table": "representations.table",
     "check": "laws",
@@ -20,11 +23,13 @@ _NAMES = {
     "errors": "errors",
     "io": "io",
     "load": "loading",
+    "lobes": "combinators",
     "materials": "materials",
     "metrics": "metrics",
     "mix": "combinators",
     "models": "models",
     "plot": "plot",
+    "profiles": "profiles",
     "render": "render",
 }
 """Public name: the module it lives in, or is."""

@@ -49,6 +49,8 @@ class Reflectance(ABC):
 
     transmits: ClassVar[bool] = False
     """Whether it is defined below the horizon, too."""
+    varies: ClassVar[bool] = False
+    """Whether it depends on the place on the surface, `uv`."""
     breaks: ClassVar[Mapping[str, str]] = {}
     """Laws it is known to break, each with the reason and its source."""
     _kinds: ClassVar[dict[str, type[Reflectance]]] = {}
@@ -67,6 +69,11 @@ class Reflectance(ABC):
     def has_formula(self) -> bool:
         """Whether `f` exists: then it compiles to every backend."""
         return True
+
+    @property
+    def has_delta(self) -> bool:
+        """Whether delta distributions (mirror, smooth refraction) are part of it, which its values do not show."""
+        return any(child.has_delta for child in self.children.values())
 
     @property
     def isotropic(self) -> bool:
@@ -109,6 +116,10 @@ class Reflectance(ABC):
         """(N, 3), (N, 3) -> (N, 3); zero below the horizon, negative values clamped on request."""
         raise NotImplementedError
 
+    def _evaluate_places(self, wi: Floats, wo: Floats, uv: Floats, clamp: bool) -> Floats:
+        """As `_evaluate_arrays`, for what varies in space: at the places (N, 2)."""
+        raise NotImplementedError
+
     def _make_sampler(self) -> Sampler:
         """The default is tabulated from the values; a reflectance that knows better overrides it."""
         return TabulatedSampler(self, isotropic=self.isotropic)
@@ -118,16 +129,17 @@ class Reflectance(ABC):
     def __call__(self, wi: Any, wo: Any, uv: Any = None) -> Any:
         """f(wi, wo) without the cosine [1/sr].
 
-        `wi`, `wo`: (..., 3) unit vectors that broadcast; `uv`: (..., 2) for what varies in space, else ignored.
+        `wi`, `wo`: (..., 3) unit vectors that broadcast; `uv`: (..., 2) in [0, 1] for what varies in space, else
+        ignored; without it what varies is taken at the middle, (0.5, 0.5).
         Returns (..., 3), float32 when both inputs are float32, else float64; zero where either direction lies below
         the horizon; measured values below zero are clamped. JAX, PyTorch and Dr.Jit arrays give arrays of their kind.
         Raises DirectionError for a wrong shape or a length off by more than 0.1 %.
         """
-        return self._guarded(wi, wo, clamp=True)
+        return self._guarded(wi, wo, uv, clamp=True)
 
     def raw(self, wi: Any, wo: Any, uv: Any = None) -> Any:
         """As the call, with negative measured values untouched."""
-        return self._guarded(wi, wo, clamp=False)
+        return self._guarded(wi, wo, uv, clamp=False)
 
     def f_cos(self, wi: Any, wo: Any, uv: Any = None) -> Any:
         """f(wi, wo) times the cosine of the light's angle, max(0, wi.z) [1/sr]; |wi.z| for what transmits."""
@@ -143,25 +155,33 @@ class Reflectance(ABC):
         wi, wo, shape = broadcast_directions(wi, wo)
         return self._delta_arrays(wi, wo).reshape(*shape, 3)
 
-    def _guarded(self, wi: Any, wo: Any, clamp: bool) -> Any:
+    def _guarded(self, wi: Any, wo: Any, uv: Any, clamp: bool) -> Any:
         if is_foreign(wi) or is_foreign(wo):
-            return self._evaluate_foreign(wi, wo, clamp)
-        wi, wo, shape = broadcast_directions(wi, wo)
+            return self._evaluate_foreign(wi, wo, uv, clamp)
+        place = None
+        if self.varies:
+            wi, wo, place, shape = broadcast_places(wi, wo, uv)
+        else:
+            wi, wo, shape = broadcast_directions(wi, wo)
         if self.has_formula:
-            value = engine.evaluate(self, wi, wo, clamp)
+            value = engine.evaluate(self, wi, wo, clamp, place)
         else:
             engine.check_lengths(wi, wo)
-            value = self._evaluate_arrays(wi, wo, clamp)
+            value = (
+                self._evaluate_arrays(wi, wo, clamp) if place is None else self._evaluate_places(wi, wo, place, clamp)
+            )
         return value.reshape(*shape, value.shape[-1])
 
-    def _evaluate_foreign(self, wi: Any, wo: Any, clamp: bool) -> Any:
+    def _evaluate_foreign(self, wi: Any, wo: Any, uv: Any, clamp: bool) -> Any:
         """The formula on another library's arrays: last axis 3 (JAX, PyTorch) or a 3-vector type (Dr.Jit, Mitsuba)."""
         backend = backend_of(wi, wo)
         if hasattr(backend, "stack"):
             i, o = (Vec(w[..., 0], w[..., 1], w[..., 2]) for w in (wi, wo))
-            return backend.stack(engine.run(self, i, o, clamp).components)
+            place = Vec(*MIDDLE) if uv is None else Vec(uv[..., 0], uv[..., 1])
+            return backend.stack(engine.run(self, i, o, clamp, place).components)
         i, o = (Vec(w[0], w[1], w[2]) for w in (wi, wo))
-        return type(wi)(*engine.run(self, i, o, clamp))
+        place = Vec(*MIDDLE) if uv is None else Vec(uv[0], uv[1])
+        return type(wi)(*engine.run(self, i, o, clamp, place))
 
     # ---- sampling --------------------------------------------------------------------------------------------
 
@@ -173,8 +193,11 @@ class Reflectance(ABC):
             made = self.__dict__["_sampler"] = self._make_sampler()
         return made
 
-    def sample(self, wo: ArrayLike, u: ArrayLike) -> Sample:
+    def sample(self, wo: ArrayLike, u: ArrayLike, uv: Any = None) -> Sample:
         """Directions towards the light, for viewing directions `wo` (..., 3) and numbers `u` (..., 2) in [0, 1).
+
+        `uv` (..., 2): the places, for what varies in space; they enter the weight. The density is the same all over
+        the surface.
 
         Draws of a delta event (`is_delta`) come with the event's probability as their `pdf` and with its own weight.
         """
@@ -186,7 +209,7 @@ class Reflectance(ABC):
         cosine = np.abs(wi[:, 2]) if self.transmits else np.maximum(wi[:, 2], 0)
         usable = pdf > 0
         scale = np.where(usable, cosine / np.where(usable, pdf, 1), 0)
-        weight = self(wi, wo) * scale[:, None]
+        weight = self(wi, wo, None if uv is None else flat_places(uv, shape)) * scale[:, None]
         events = np.flatnonzero(is_delta)
         if len(events):
             probability = event_probability(self.sampler, wi[events], wo[events])
@@ -195,10 +218,11 @@ class Reflectance(ABC):
             weight[events] = carried / np.where(probability > 0, probability, np.inf)[:, None]
         return Sample(wi.reshape(*shape, 3), weight.reshape(*shape, 3), pdf.reshape(shape), is_delta.reshape(shape))
 
-    def pdf(self, wi: ArrayLike, wo: ArrayLike) -> Floats:
+    def pdf(self, wi: ArrayLike, wo: ArrayLike, uv: Any = None) -> Floats:
         """Density with which `sample(wo, ·)` draws `wi` [1/sr]; delta events have none and count as 0.
 
-        Integrates to at most 1: over the upper hemisphere, or over the sphere for what transmits.
+        Integrates to at most 1: over the upper hemisphere, or over the sphere for what transmits. The same at every
+        place `uv`.
         """
         wi, wo, shape = broadcast_directions(wi, wo)
         return self.sampler.pdf(wi, wo).reshape(shape)
@@ -251,6 +275,12 @@ class Reflectance(ABC):
         return scaled(self, scale)
 
     __mul__ = __rmul__
+
+    def lobes(self, count: int) -> Reflectance:
+        """A sum of `count` copies that together are this reflectance, each with a scale of its own: for fitting."""
+        from .combinators import lobes
+
+        return lobes(self, count)
 
     @property
     def nbytes(self) -> int:
@@ -323,6 +353,29 @@ def as_directions(name: str, w: ArrayLike) -> Floats:
     if array.ndim == 0 or array.shape[-1] != 3:
         raise DirectionError(f"{name} must have shape (..., 3), got {array.shape}")
     return array
+
+
+MIDDLE = (0.5, 0.5)
+"""Where what varies in space is taken when no place is given."""
+
+
+def broadcast_places(wi: ArrayLike, wo: ArrayLike, uv: Any) -> tuple[Floats, Floats, Floats, tuple[int, ...]]:
+    """As `broadcast_directions`, with the places as (N, 2). Raises DirectionError."""
+    wi, wo = as_directions("wi", wi), as_directions("wo", wo)
+    places = np.asarray(MIDDLE if uv is None else uv)
+    if places.shape[-1:] != (2,) or places.dtype.kind not in "fiu":
+        raise DirectionError(f"uv must have shape (..., 2), got {places.shape}")
+    try:
+        shape = np.broadcast_shapes(wi.shape[:-1], wo.shape[:-1], places.shape[:-1])
+    except ValueError:
+        raise DirectionError(f"wi {wi.shape}, wo {wo.shape} and uv {places.shape} do not broadcast") from None
+    flat_wi, flat_wo, _ = broadcast_directions(np.broadcast_to(wi, (*shape, 3)), wo)
+    return flat_wi, flat_wo, flat_places(places, shape).astype(flat_wi.dtype, copy=False), shape
+
+
+def flat_places(uv: Any, shape: tuple[int, ...]) -> Floats:
+    """Places (..., 2) as (N, 2), one for each element of `shape`."""
+    return np.broadcast_to(np.asarray(uv), (*shape, 2)).reshape(-1, 2)
 
 
 def broadcast_directions(wi: ArrayLike, wo: ArrayLike) -> tuple[Floats, Floats, tuple[int, ...]]:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 from .vec import Vec
+
+UV = "uv"
+"""What a formula's lookup calls the surface coordinates."""
 
 
 class Bound:
@@ -16,6 +20,21 @@ class Bound:
 
     def __init__(self, target: Any, lookup: Any, prefix: str = "") -> None:
         self._target, self._lookup, self._prefix = target, lookup, prefix
+
+    def bound_child(self, child: str, values: Mapping[str, Any]) -> Bound:
+        """A child some of whose parameters are what the formula made of them: `values` by the child's full names."""
+        prefix = f"{self._prefix}{child}_"
+
+        def lookup(path: str) -> Any:
+            name = path.removeprefix(prefix)
+            return values[name] if name in values else self._lookup(path)
+
+        return Bound(self._target.children[child], lookup, prefix)
+
+    @property
+    def uv(self) -> Any:
+        """The surface coordinates, a `Vec` of two: only for what varies in space."""
+        return self._lookup(UV)
 
     def __getattr__(self, name: str) -> Any:
         target = self._target

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..errors import DirectionError
 from . import ops
-from .bound import Bound, bound_value
+from .bound import UV, Bound, bound_value
 from .vec import Vec
 
 SMALL = 20_000
@@ -21,25 +21,28 @@ SMALL = 20_000
 LENGTH_TOLERANCE = 1e-3
 
 
-def evaluate(reflectance: Any, wi: Any, wo: Any, clamp: bool) -> Any:
-    """The reflectance at (N, 3) pairs, in their dtype. Raises DirectionError."""
+def evaluate(reflectance: Any, wi: Any, wo: Any, clamp: bool, uv: Any = None) -> Any:
+    """The reflectance at (N, 3) pairs, in their dtype; `uv` (N, 2) for what varies in space. Raises DirectionError."""
     if len(wi) >= SMALL:
         from . import kernels
 
-        return kernels.evaluate(reflectance, wi, wo, clamp)
+        return kernels.evaluate(reflectance, wi, wo, clamp, uv)
     check_lengths(wi, wo)
     with np.errstate(all="ignore"):  # lanes below the horizon may divide by zero; they are masked
-        rgb = run(reflectance, Vec(*wi.T), Vec(*wo.T), clamp, number=wi.dtype.type)
+        place = None if uv is None else Vec(*uv.T)
+        rgb = run(reflectance, Vec(*wi.T), Vec(*wo.T), clamp, place, number=wi.dtype.type)
     value = np.empty_like(wi)
     for channel, component in enumerate(rgb):
         value[:, channel] = component
     return value
 
 
-def run(reflectance: Any, wi: Vec, wo: Vec, clamp: bool, number: Any = float) -> Vec:
+def run(reflectance: Any, wi: Vec, wo: Vec, clamp: bool, uv: Vec | None = None, number: Any = float) -> Vec:
     """The guarded formula on components of any array library."""
 
     def lookup(name: str) -> Any:
+        if name == UV:
+            return uv
         values = reflectance.values
         return bound_value(values[name], number) if name in values else reflectance.textures[name]
 

@@ -32,15 +32,16 @@ _PER_TASK = 64 * BLOCK
 _kernels: dict[tuple[Any, ...], Callable[..., int]] = {}
 
 
-def evaluate(reflectance: Any, wi: Any, wo: Any, clamp: bool) -> Any:
+def evaluate(reflectance: Any, wi: Any, wo: Any, clamp: bool, uv: Any = None) -> Any:
     """As `engine.evaluate`, compiled. Raises DirectionError."""
     kernel = kernel_for(reflectance, wi.dtype.name)
     parameters = np.array(parameter_values(reflectance.values), np.float64)
     textures = [np.ascontiguousarray(data, np.float32) for data in reflectance.textures.values()]
     out = np.empty(wi.shape, wi.dtype)
+    places = [] if uv is None else [uv]
 
     def run(start: int) -> int:
-        return kernel(wi, wo, parameters, *textures, out, start, min(start + _PER_TASK, len(wi)), clamp)
+        return kernel(wi, wo, *places, parameters, *textures, out, start, min(start + _PER_TASK, len(wi)), clamp)
 
     starts = range(0, len(wi), _PER_TASK)
     for bad in map_threads(run, starts):
@@ -77,7 +78,9 @@ def kernel_for(reflectance: Any, real: str) -> Callable[..., int]:
     """The compiled kernel of a reflectance for `real` = "float32" | "float64"."""
     key = (real, reflectance.structure)
     if key not in _kernels:
-        source = print_kernel(trace(reflectance), real, has_horizon=not reflectance.transmits)
+        source = print_kernel(
+            trace(reflectance), real, has_horizon=not reflectance.transmits, varies=reflectance.varies
+        )
         _kernels[key] = _compiled(source)
     return _kernels[key]
 

@@ -14,7 +14,7 @@ from types import CodeType, FrameType
 from typing import Any
 
 from ..errors import FormulaError
-from .bound import Bound
+from .bound import UV, Bound
 from .graph import Expr, Graph, TextureRef
 from .vec import Vec
 
@@ -48,6 +48,8 @@ def trace(reflectance: Any) -> Program:
     textures = {name: TextureRef(name, data.shape, graph) for name, data in reflectance.textures.items()}
 
     def lookup(name: str) -> Any:
+        if name == UV:
+            return Vec(*(graph.symbol(f"{UV}_{axis}") for axis in AXES[:2]))
         if name in textures:
             return textures[name]
         symbols = [graph.symbol(n) for n in component_names(name, sizes[name])]

@@ -44,9 +44,8 @@ def _counts(reflectance: Reflectance, viewer: Floats, seed: int) -> tuple[Floats
     much that should be.
     """
     drawn = reflectance.sample(viewer, np.random.default_rng(seed).random((SAMPLES, 2)))
-    # a lobe that only reflects, beside one that transmits, has nothing to draw for a viewer below
-    of_use = (drawn.pdf > 0) | (viewer[2] > 0)
-    smooth = drawn.wi[~drawn.is_delta & of_use]
+    # what is drawn where the density is 0 is missing from it, and is found there
+    smooth = drawn.wi[~drawn.is_delta & (drawn.pdf > 0)]
     cells = cells_of(reflectance, viewer, smooth)
     probabilities, events = _events(drawn)
     expected = SAMPLES * np.concatenate([cells.probability, probabilities])

@@ -88,7 +88,7 @@ class EnvironmentPass:
     def _by_reflectance(
         self, total: Floats, reflectance: Reflectance, at: ShadingPoints, u: Floats, shadows: Surface | None
     ) -> None:
-        drawn = reflectance.sample(at.views, u)
+        drawn = reflectance.sample(at.views, u, at.uvs)
         useful = np.flatnonzero((drawn.pdf > 0) & (np.abs(drawn.wi[:, 2]) <= 1))
         local = np.ascontiguousarray(drawn.wi, np.float32)
         world = at.to_world(local, useful)

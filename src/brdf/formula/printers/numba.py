@@ -51,7 +51,7 @@ def _constant(value: float | bool) -> str:
 
 
 _RESERVED = frozenset({
-    "wi", "wo", "parameters", "out", "start", "stop", "clamp", "work", "bad", "first", "count", "i", "off",
+    "wi", "wo", "uv", "parameters", "out", "start", "stop", "clamp", "work", "bad", "first", "count", "i", "off",
     "lit", "value", "texels", "base", "number", "real", "types", "np", "njit", "uniform", "array", "kernel",
     "min", "max", "int", "ZERO", "ONE", "TOLERANCE", "ROWS", "BLOCK",
 })  # fmt: skip
@@ -71,21 +71,26 @@ _UNIFORM = Dialect(
 
 
 _DIRECTIONS = [f"{w}_{axis}" for w in ("wi", "wo") for axis in "xyz"]
+_PLACE = ["uv_x", "uv_y"]
 
 
-def print_kernel(program: Program, real: str, has_horizon: bool) -> str:
-    """Source of a module with `kernel(wi, wo, parameters, textures…, out, start, stop, clamp)` for `real` numbers."""
-    return _KernelPrinter(program, real, has_horizon).source()
+def print_kernel(program: Program, real: str, has_horizon: bool, varies: bool = False) -> str:
+    """Source of a module with `kernel(wi, wo, parameters, textures…, out, start, stop, clamp)` for `real` numbers.
+
+    What varies in space has `uv` after `wo`.
+    """
+    return _KernelPrinter(program, real, has_horizon, varies).source()
 
 
 class _KernelPrinter:
-    def __init__(self, program: Program, real: str, has_horizon: bool) -> None:
+    def __init__(self, program: Program, real: str, has_horizon: bool, varies: bool) -> None:
         self._program, self._real, self._has_horizon = program, real, has_horizon
+        self._inputs = [*_DIRECTIONS, *(_PLACE if varies else [])]
         self._rows: dict[str, str] = {}
         """What the work array holds: name -> the current pair's element."""
         self._needed = reachable(program.outputs)
         self._symbols = {node.value: node for node in self._needed if node.op == "symbol"}
-        self._varying = {node for name, node in self._symbols.items() if name in _DIRECTIONS}
+        self._varying = {node for name, node in self._symbols.items() if name in self._inputs}
         for node in self._needed:
             if node.op == "texture" or any(argument in self._varying for argument in node.args):
                 self._varying.add(node)
@@ -103,12 +108,21 @@ class _KernelPrinter:
             real=self._real,
             math="math32" if self._real == "float32" else "math64",
             signature=", ".join(
-                ["array(number, 2, 'A')", "array(number, 2, 'A')", "array(types.float64, 1, 'C')"]
+                ["array(number, 2, 'A')"] * len({name[:2] for name in self._inputs})
+                + ["array(types.float64, 1, 'C')"]
                 + [f"array(types.float32, {t.dimensions + 1}, 'C')" for t in textures]
                 + ["types.Array(number, 2, 'C')", "types.int64", "types.int64", "types.boolean"]
             ),
             arguments=", ".join(
-                ["wi", "wo", "parameters", *(t.name for t in textures), "out", "start", "stop", "clamp"]
+                [
+                    *dict.fromkeys(name[:2] for name in self._inputs),
+                    "parameters",
+                    *(t.name for t in textures),
+                    "out",
+                    "start",
+                    "stop",
+                    "clamp",
+                ]
             ),
             rows=len(self._rows),
             block=BLOCK,
@@ -136,8 +150,8 @@ class _KernelPrinter:
         return lines
 
     def _block_start(self) -> list[str]:
-        loads = [f"{self._row(name)} = {name[:2]}[first + i, {'xyz'.index(name[3])}]" for name in _DIRECTIONS]
-        self._known |= {self._symbols[name]: name for name in _DIRECTIONS if name in self._symbols}
+        loads = [f"{self._row(name)} = {name[:2]}[first + i, {'xyz'.index(name[3])}]" for name in self._inputs]
+        self._known |= {self._symbols[name]: name for name in self._inputs if name in self._symbols}
         return [
             "work = np.empty(ROWS * BLOCK, real)",
             "bad = -1",

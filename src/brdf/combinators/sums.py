@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from .formula import where
-from .formula.vec import Vec
-from .geometry.sampling import MixtureSampler, Sampler
-from .parameters import RGB, Parameterised, rgb
-from .reflectance import Floats, Reflectance
+from ..errors import ParameterError
+from ..formula import where
+from ..formula.vec import Vec
+from ..geometry.sampling import MixtureSampler, Sampler
+from ..parameters import RGB, Parameterised, rgb
+from ..reflectance import Floats, Reflectance
 
 
 class Sum(Reflectance):
@@ -51,6 +52,10 @@ class Sum(Reflectance):
         return any(lobe.transmits for lobe in self._children.values())
 
     @property
+    def varies(self) -> bool:  # type: ignore[override]
+        return any(lobe.varies for lobe in self._children.values())
+
+    @property
     def relative_index(self) -> float:
         return next((lobe.relative_index for lobe in self._children.values() if lobe.transmits), 1.0)
 
@@ -72,6 +77,11 @@ class Sum(Reflectance):
 
     def _evaluate_arrays(self, wi: Floats, wo: Floats, clamp: bool) -> Floats:
         lobe_values = (lobe(wi, wo) if clamp else lobe.raw(wi, wo) for lobe in self._children.values())
+        total: Floats = np.add.reduce(list(lobe_values))
+        return total
+
+    def _evaluate_places(self, wi: Floats, wo: Floats, uv: Floats, clamp: bool) -> Floats:
+        lobe_values = (lobe(wi, wo, uv) if clamp else lobe.raw(wi, wo, uv) for lobe in self._children.values())
         total: Floats = np.add.reduce(list(lobe_values))
         return total
 
@@ -126,6 +136,10 @@ class Scaled(Parameterised, Reflectance):
         return self._children["base"].transmits
 
     @property
+    def varies(self) -> bool:  # type: ignore[override]
+        return self._children["base"].varies
+
+    @property
     def relative_index(self) -> float:
         return self._children["base"].relative_index
 
@@ -140,6 +154,11 @@ class Scaled(Parameterised, Reflectance):
     def _evaluate_arrays(self, wi: Floats, wo: Floats, clamp: bool) -> Floats:
         base = self._children["base"]
         value: Floats = base(wi, wo) if clamp else base.raw(wi, wo)
+        return value * np.asarray(self.scale, value.dtype)
+
+    def _evaluate_places(self, wi: Floats, wo: Floats, uv: Floats, clamp: bool) -> Floats:
+        base = self._children["base"]
+        value: Floats = base(wi, wo, uv) if clamp else base.raw(wi, wo, uv)
         return value * np.asarray(self.scale, value.dtype)
 
     def _make_sampler(self) -> Sampler:
@@ -176,6 +195,15 @@ def scaled(base: Reflectance, scale: Any) -> Scaled:
 def mix(a: Reflectance, b: Reflectance, t: float) -> Sum:
     """(1 - t) a + t b, t in [0, 1]."""
     return add(scaled(a, 1 - t), scaled(b, t))
+
+
+def lobes(base: Reflectance, count: int) -> Sum:
+    """`count` copies of `base`, each scaled by 1 / count and with parameters of its own: a sum to fit. Raises
+    ParameterError.
+    """
+    if count != int(count) or count < 1:
+        raise ParameterError(f"lobes must be a whole number of at least 1, got {count}")
+    return Sum([Scaled(base, 1 / count) for _ in range(int(count))])
 
 
 def _typical_albedo(lobe: Reflectance) -> float:
