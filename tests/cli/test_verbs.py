@@ -156,6 +156,13 @@ def test_an_anisotropic_material_is_drawn_alone_with_a_note(brdf: Command, tmp_p
     assert pixels(tmp_path / "x.png").shape == (32, 48, 3)
 
 
+def test_a_mirror_is_drawn_alone_with_a_note(brdf: Command, tmp_path: Path) -> None:
+    outcome = brdf("render", "Mirror", *DRAFT, "-o", "x.png")
+    assert outcome.code == 0
+    assert "Mirror mirrors, which a slice stack cannot hold" in outcome.err
+    assert pixels(tmp_path / "x.png").shape == (32, 48, 3)
+
+
 def test_a_baked_stack_is_not_compared_with_itself(brdf: Command, tmp_path: Path) -> None:
     assert brdf("bake", "GGX:alpha=.3", "-o", "small.safetensors").code == 0
     assert brdf("render", "small.safetensors", *DRAFT, "-o", "x.png").code == 0

@@ -84,11 +84,12 @@ def test_smooth_dielectric(mi: Any, eta: float, side: int) -> None:
     wo, u = side * directions(7), np.random.default_rng(8).random((COUNT, 2))
     wi, weight, probability = sampled(mi, {"type": "dielectric", "int_ior": eta, "ext_ior": 1.0}, wo, u[:, 0])
     ours = SmoothDielectric(eta=eta).sample(wo, u)
-    # single precision may choose the other event where the number falls on the reflectance, and loses the angle where
-    # the refracted direction grazes
-    same = (ours.wi[:, 2] * wi[:, 2] > 0) & (np.abs(wi[:, 2]) > 0.01)
+    # near the critical angle single precision loses digits, and it may choose the other event where the number falls on
+    # the reflectance
+    sine_beyond = np.hypot(wo[:, 0], wo[:, 1]) * (eta if side < 0 else 1 / eta)
+    same = (ours.wi[:, 2] * wi[:, 2] > 0) & (np.abs(sine_beyond - 1) > 1e-3)
     assert same.mean() > 0.98
     assert (ours.wi[same, 2] * wo[same, 2] < 0).mean() > 0.1
-    np.testing.assert_allclose(ours.wi[same], wi[same], atol=1e-4)
+    np.testing.assert_allclose(ours.wi[same], wi[same], atol=1e-5)
     np.testing.assert_allclose(ours.weight[same], weight[same], rtol=1e-5)
-    np.testing.assert_allclose(ours.pdf[same], probability[same], rtol=1e-3, atol=1e-5)
+    np.testing.assert_allclose(ours.pdf[same], probability[same], rtol=1e-4, atol=1e-7)

@@ -7,7 +7,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from brdf import Reflectance, laws, mix
+from brdf import Reflectance, Table, laws, mix
+from brdf.errors import ReflectanceError
 from brdf.geometry.directions import refracted
 from brdf.geometry.sampling import CosineSampler, Sampler
 from brdf.models import GGX, Lambertian, Mirror, SmoothConductor, SmoothDielectric
@@ -195,6 +196,13 @@ class Sheet(Reflectance):
 
     def _state(self) -> tuple[dict, dict]:
         raise NotImplementedError
+
+
+def test_what_holds_values_alone_refuses_delta_lobes() -> None:
+    assert (2.0 * (0.1 * Mirror() + Lambertian())).has_delta
+    assert not (GGX() + Lambertian()).has_delta
+    with pytest.raises(ReflectanceError, match=r"^Mirror \+ Lambertian mirrors like a polished surface"):
+        Table.bake(0.1 * Mirror() + Lambertian(), shape=(4, 4, 8))
 
 
 def test_saves_and_restores(tmp_path: object) -> None:

@@ -19,6 +19,8 @@ class Mirror(Model):
     A delta distribution: the value is 0, `sample` draws r with weight `reflectance`. Reference: Pharr2023.
     """
 
+    has_delta = True
+
     reflectance: RGB = albedo("share of the light that is reflected", default=1.0)
 
     def f(self, wi: Vec, wo: Vec) -> Vec:

@@ -21,6 +21,8 @@ class SmoothConductor(Model):
     distribution: the value is 0, `sample` draws r with weight F. References: Born1999, Lagarde2013.
     """
 
+    has_delta = True
+
     eta: RGB = rgb("refractive index, real part", default=(0.2, 0.92, 1.1), low=1e-3, high=20.0)
     k: RGB = rgb("extinction coefficient", default=(3.91, 2.45, 2.14), low=0.0, high=20.0)
 

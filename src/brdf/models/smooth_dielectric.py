@@ -28,6 +28,7 @@ class SmoothDielectric(Model):
     """
 
     transmits = True
+    has_delta = True
 
     eta: Scalar = number("refractive index below the surface over that above", default=1.5, low=0.25, high=4.0)
 

@@ -29,6 +29,11 @@ def require_isotropic(m: Reflectance) -> None:
         )
     if m.transmits:
         raise ReflectanceError(f"{m.name or type(m).__name__} transmits; a table holds reflection only")
+    if m.has_delta:
+        raise ReflectanceError(
+            f"{m.name or type(m).__name__} mirrors like a polished surface, which has no values a table could hold; "
+            "give it a width (a GGX lobe) first"
+        )
 
 
 def validity(m: Reflectance, wi: Array, wo: Array) -> NDArray[np.bool_]:

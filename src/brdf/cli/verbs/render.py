@@ -96,8 +96,8 @@ def _stack(m: Reflectance) -> tuple[Reflectance | None, str]:
     from ...representations.slice_stack import SliceStack
     from ...representations.table import Table
 
-    if not m.isotropic or m.transmits:
-        kind = "transmits" if m.transmits else "is anisotropic"
+    if not m.isotropic or m.transmits or m.has_delta:
+        kind = "transmits" if m.transmits else "mirrors" if m.has_delta else "is anisotropic"
         output.note(f"{m.name or type(m).__name__} {kind}, which a slice stack cannot hold; it is drawn alone")
         return None, ""
     if isinstance(m, Table) and m.layout == SliceStack.layout():
