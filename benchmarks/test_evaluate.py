@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
-from conftest import best_time, million_per_second
 
 import brdf
 from brdf.formula import engine
 from brdf.formula.vec import Vec
+from conftest import best_time, million_per_second
 
 CHUNK = 16_384
 

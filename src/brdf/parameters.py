@@ -28,7 +28,7 @@ RGB = Any
 Scalar = Any
 
 
-class CallableValue(np.ndarray):  # type: ignore[type-arg]
+class CallableValue(np.ndarray):
     """The value of a parameter named like a method: `m.albedo` is Lambert's parameter, `m.albedo(wo)` the quantity."""
 
     _method: Callable[..., Any]
