@@ -14,13 +14,13 @@ import os
 import sys
 import tempfile
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
 import numba
 import numpy as np
 
+from ..threads import map_threads
 from . import math32, math64
 from .engine import check_lengths
 from .printers.numba import BLOCK, print_kernel
@@ -49,60 +49,48 @@ def evaluate(reflectance: Any, wi: Any, wo: Any, clamp: bool) -> Any:
     return out
 
 
-def map_threads(function: Callable[[int], Any], arguments: Any) -> list[Any]:
-    """`function` of each argument, on all cores; for functions that release the interpreter lock."""
-    if len(arguments) < 2 or thread_count() == 1:
-        return [function(argument) for argument in arguments]
-    return list(_pool().map(function, arguments))
-
-
-def thread_count() -> int:
-    """Threads in use: `BRDF_THREADS`, else the cores this process may run on."""
-    given = os.environ.get("BRDF_THREADS", "")
-    return (
-        max(1, int(given))
-        if given.isdigit()
-        else len(os.sched_getaffinity(0))
-        if hasattr(os, "sched_getaffinity")
-        else os.cpu_count() or 1
-    )
-
-
-@functools.cache
-def _pool() -> ThreadPoolExecutor:
-    return ThreadPoolExecutor(thread_count(), thread_name_prefix="brdf")
-
-
 def kernel_for(reflectance: Any, real: str) -> Callable[..., int]:
     """The compiled kernel of a reflectance for `real` = "float32" | "float64"."""
     key = (real, reflectance.structure)
     if key not in _kernels:
-        source = print_kernel(trace(reflectance), real, has_horizon=not reflectance.transmits)
-        _kernels[key] = _compiled(source)
+        _kernels[key] = _loaded(_module_of(reflectance, real))
     return _kernels[key]
 
 
-@functools.cache
-def _compiled(source: str) -> Callable[..., int]:
-    """The kernel of a generated module, through the cache on disk."""
+def is_ready(reflectance: Any, real: str) -> bool:
+    """Whether the kernel runs at once: it is loaded, or its machine code lies on disk."""
+    if (real, reflectance.structure) in _kernels:
+        return True
+    module = _module_of(reflectance, real)
+    return any(module.parent.glob(f"__pycache__/{module.stem}.*.nbc"))
+
+
+def _module_of(reflectance: Any, real: str) -> Path:
+    """The generated module on disk, written if it is not there."""
+    source = print_kernel(trace(reflectance), real, has_horizon=not reflectance.transmits)
     digest = hashlib.sha256((source + _environment()).encode()).hexdigest()[:24]
-    name = f"brdf_kernel_{digest}"
-    path = cache_folder() / f"{name}.py"
+    path = cache_folder() / f"brdf_kernel_{digest}.py"
     if not path.exists():
         handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".tmp")
         with os.fdopen(handle, "w") as file:
             file.write(source)
         os.replace(temporary, path)
-    spec = importlib.util.spec_from_file_location(name, path)
+    return path
+
+
+def _loaded(path: Path) -> Callable[..., int]:
+    """The kernel of a generated module: compiled, or loaded from numba's cache beside it."""
+    spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
+    sys.modules[path.stem] = module
     spec.loader.exec_module(module)
     kernel: Callable[..., int] = module.kernel
     return kernel
 
 
+@functools.cache
 def _environment() -> str:
     """What the machine code depends on beside the source."""
     parts = [Path(str(module.__file__)).read_text() for module in (math32, math64)]

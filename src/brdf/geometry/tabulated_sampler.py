@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..threads import in_ranges
 from .directions import cosine_weighted, dot, from_spherical, reflected
 
 Floats = NDArray[np.floating[Any]]
@@ -26,8 +27,8 @@ COSINE_SHARES = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.75, 0.95)
 SUBSAMPLES = 2
 """Values taken along each side of a cell."""
 
-BLOCK = 1 << 15
-"""Directions worked on at once, so that the intermediate arrays stay in the processor's cache."""
+BLOCK = 1 << 14
+"""Directions a thread works on at once, so that the intermediate arrays stay in the processor's cache."""
 
 
 class _Grid(NamedTuple):
@@ -80,8 +81,11 @@ class TabulatedSampler:
     def sample(self, wo: Floats, u: Floats) -> tuple[Floats, NDArray[np.bool_]]:
         """As `Sampler.sample`."""
         table, wi = self._table, np.empty_like(wo)
-        for block in _blocks(len(wo)):
-            wi[block] = self._sample(table, wo[block], u[block].astype(np.float64))
+
+        def draw(start: int, stop: int) -> None:
+            wi[start:stop] = self._sample(table, wo[start:stop], u[start:stop].astype(np.float64))
+
+        in_ranges(draw, len(wo), BLOCK)
         return wi, np.zeros(len(wo), bool)
 
     def _sample(self, table: _Table, wo: Floats, u: Floats) -> Floats:
@@ -109,8 +113,11 @@ class TabulatedSampler:
     def pdf(self, wi: Floats, wo: Floats) -> Floats:
         """As `Sampler.pdf`."""
         table, density = self._table, np.empty(len(wi), wi.dtype)
-        for block in _blocks(len(wi)):
-            density[block] = self._pdf(table, wi[block], wo[block])
+
+        def fill(start: int, stop: int) -> None:
+            density[start:stop] = self._pdf(table, wi[start:stop], wo[start:stop])
+
+        in_ranges(fill, len(wi), BLOCK)
         return density
 
     def _pdf(self, table: _Table, wi: Floats, wo: Floats) -> Floats:
@@ -149,11 +156,6 @@ class TabulatedSampler:
             position = np.arctan2(wo[:, 1], wo[:, 0]).astype(np.float64) * (grid.phi_o / (2 * np.pi))
             lower = np.floor(position).astype(np.intp)
             yield lower % grid.phi_o, (lower + 1) % grid.phi_o, position - lower, 1
-
-
-def _blocks(count: int) -> Iterator[slice]:
-    for start in range(0, count, BLOCK):
-        yield slice(start, start + BLOCK)
 
 
 def _choice(u: Floats, share: Floats) -> tuple[NDArray[np.bool_], Floats]:
