@@ -148,5 +148,4 @@ def mix(a: Reflectance, b: Reflectance, t: float) -> Sum:
 
 def _typical_albedo(lobe: Reflectance) -> float:
     """A weight for choosing between lobes: the mean albedo at 45 degrees. It only steers the sampling."""
-    # through the class: a model may have a parameter called albedo
     return float(lobe.albedo([np.sqrt(0.5), 0.0, np.sqrt(0.5)], samples=256).mean())
