@@ -1,7 +1,6 @@
 """The compiled loops of `tabulated_sampler`: one direction at a time.
 
-Angles find their place in the table in single precision, the same way in `sample` and `density`. The functions are
-plain Python; `compiled` turns one into a kernel for an array type when it is first needed.
+The functions are plain Python; `compiled` turns one into a kernel for an array type when it is first needed.
 """
 
 from __future__ import annotations
@@ -10,12 +9,8 @@ import functools
 import math
 from collections.abc import Callable
 
-import numpy as np
 from numba import njit, types
 
-from ..formula import math32
-
-SIXTH = np.float32(1 / 6)
 SIZES = types.UniTuple(types.int64, 4)  # type: ignore[no-untyped-call]
 
 
@@ -46,7 +41,7 @@ def _azimuth(x, y):  # type: ignore[no-untyped-def]
 @njit(error_model="numpy", nogil=True)
 def _position(z, last, count):  # type: ignore[no-untyped-def]
     """Lower node of the polar angle with cosine z, and the weight of the next one."""
-    position = min(math32.acos(np.float32(z)) / last, 1.0) * (count - 1)
+    position = min(math.acos(min(max(z, -1.0), 1.0)) / last, 1.0) * (count - 1)
     lower = min(int(position), count - 2)
     return lower, position - lower
 
@@ -54,7 +49,7 @@ def _position(z, last, count):  # type: ignore[no-untyped-def]
 @njit(error_model="numpy", nogil=True)
 def _around(x, y, count):  # type: ignore[no-untyped-def]
     """Lower node of the azimuth, the next one, and the weight of the next one."""
-    position = math32.atan2(np.float32(y), np.float32(x)) * (count / (2 * math.pi))
+    position = math.atan2(y, x) * (count / (2 * math.pi))
     lower = math.floor(position)
     return int(lower) % count, (int(lower) + 1) % count, position - lower
 
@@ -134,11 +129,11 @@ def density(start, stop, wi, wo, shares, densities, sizes, last, isotropic, pdf)
         inverse = 1.0 / length
         hx, hy, hz = hx * inverse, hy * inverse, hz * inverse
         t = min((hx * hx + hy * hy) / (1 + hz), 1.0)
-        ring = min(int(math32.exp(math32.log(np.float32(t)) * SIXTH) * n_theta_h), n_theta_h - 1)
+        ring = min(int(t ** (1 / 6) * n_theta_h), n_theta_h - 1)
         if isotropic:
             cos_o, sin_o = _azimuth(x, y)
             hx, hy = hx * cos_o + hy * sin_o, hy * cos_o - hx * sin_o
-        sector = math.floor(math32.atan2(np.float32(hy), np.float32(hx)) * (n_phi_h / (2 * math.pi)))
+        sector = math.floor(math.atan2(hy, hx) * (n_phi_h / (2 * math.pi)))
         cell = ring * n_phi_h + (int(sector) + n_phi_h if sector < 0 else int(sector))
 
         lower, weight = _position(z, last, n_theta_o)

@@ -38,7 +38,7 @@ def render(
     env: str | os.PathLike[str] | float | Environment | None = None,
     camera: Camera | None = None,
     size: tuple[int, int] = (800, 600),
-    samples: int = 24,
+    samples: int = 16,
     supersampling: int = 2,
     shadows: bool = True,
     background: str | ArrayLike = "gradient",
@@ -66,7 +66,7 @@ def render_halves(
     left: Reflectance, right: Reflectance, *, divider: float = 1.0, mesh: str | os.PathLike[str] | Mesh = "teapot",
     lights: Iterable[Light | str] | Light | str | None = None,
     env: str | os.PathLike[str] | float | Environment | None = None, camera: Camera | None = None,
-    size: tuple[int, int] = (800, 600), samples: int = 24, supersampling: int = 2, shadows: bool = True,
+    size: tuple[int, int] = (800, 600), samples: int = 16, supersampling: int = 2, shadows: bool = True,
     background: str | ArrayLike = "gradient", seed: int = 0, progress: Report | bool | None = None,
 ) -> Image:  # fmt: skip
     """One picture whose left half is made of `left` and whose right half of `right`; for the rest as `render`.

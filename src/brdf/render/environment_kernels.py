@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ..formula import math32
-from .compiled import kernel
+from .compiled import helper, kernel
 
 ONE = np.float32(1)
 HALF = np.float32(0.5)
@@ -26,8 +25,8 @@ def look_up(
     for n in range(start, stop):
         x, y, z = directions[n, 0], directions[n, 1], directions[n, 2]
         turned_x, turned_z = cos * x - sin * z, sin * x + cos * z
-        u = (math32.atan2(turned_x, -turned_z) / TWO_PI + HALF) * np.float32(width)
-        v = math32.acos(min(max(y, -ONE), ONE)) / PI * np.float32(height)
+        u = (math.atan2(turned_x, -turned_z) / TWO_PI + HALF) * np.float32(width)
+        v = math.acos(min(max(y, -ONE), ONE)) / PI * np.float32(height)
         density[n] = cell_density[min(int(v), height - 1), min(int(u), width - 1)]
         u, v = u - HALF, v - HALF
         left, top = int(np.floor(u)), int(np.floor(v))
@@ -40,23 +39,36 @@ def look_up(
             radiance[n, c] = (ONE - b) * upper + b * lower
 
 
+@helper
+def _found(sums: Any, u: Any) -> Any:
+    """The first of the increasing running sums above u, at most the last."""
+    low, high = 0, len(sums) - 1
+    while low < high:
+        middle = (low + high) // 2
+        if sums[middle] > u:
+            high = middle
+        else:
+            low = middle + 1
+    return low
+
+
 @kernel("void(i8, i8, f4[:,::1], f4[::1], f4[:,::1], f4, f4, f4[:,::1])")
 def sample(start: int, stop: int, u: Any, rows: Any, columns: Any, cos: Any, sin: Any, directions: Any) -> None:
     """World directions distributed as the cells' brightness; within a cell evenly over solid angle."""
     height, width = columns.shape
     for n in range(start, stop):
-        i = min(np.searchsorted(rows, u[n, 0], side="right"), height - 1)
+        i = _found(rows, u[n, 0])
         below = rows[i - 1] if i > 0 else np.float32(0)
         along_row = (u[n, 0] - below) / max(rows[i] - below, np.float32(1e-20))
-        j = min(np.searchsorted(columns[i], u[n, 1], side="right"), width - 1)
+        j = _found(columns[i], u[n, 1])
         before = columns[i, j - 1] if j > 0 else np.float32(0)
         along_column = (u[n, 1] - before) / max(columns[i, j] - before, np.float32(1e-20))
-        upper = math32.cos(np.float32(i) * PI / np.float32(height))
-        lower = math32.cos(np.float32(i + 1) * PI / np.float32(height))
+        upper = math.cos(np.float32(i) * PI / np.float32(height))
+        lower = math.cos(np.float32(i + 1) * PI / np.float32(height))
         y = upper + min(max(along_row, np.float32(0)), ONE) * (lower - upper)
         phi = ((np.float32(j) + min(max(along_column, np.float32(0)), ONE)) / np.float32(width) - HALF) * TWO_PI
         r = math.sqrt(max(ONE - y * y, np.float32(0)))
-        x, z = r * math32.sin(phi), -r * math32.cos(phi)
+        x, z = r * math.sin(phi), -r * math.cos(phi)
         directions[n, 0] = cos * x + sin * z
         directions[n, 1] = y
         directions[n, 2] = cos * z - sin * x
