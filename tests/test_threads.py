@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 
 import numpy as np
@@ -45,3 +46,15 @@ def test_work_handed_on_from_a_worker_does_not_wait_for_itself():
 def test_errors_come_through():
     with pytest.raises(ZeroDivisionError):
         threads.map_threads(lambda x: 1 // x, [1, 0, 2])
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system cannot fork")
+@pytest.mark.filterwarnings("ignore:This process .* is multi-threaded:DeprecationWarning")
+def test_a_forked_process_makes_its_own_threads():
+    threads.map_threads(abs, range(4))
+    child = os.fork()
+    if child == 0:
+        done = threading.Event()
+        threading.Thread(target=lambda: (threads.map_threads(abs, range(4)), done.set()), daemon=True).start()
+        os._exit(0 if done.wait(10) else 1)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0

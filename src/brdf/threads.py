@@ -41,6 +41,11 @@ def _pool() -> ThreadPoolExecutor:
     return ThreadPoolExecutor(cores(), thread_name_prefix="brdf", initializer=_mark_worker)
 
 
+if hasattr(os, "register_at_fork"):
+    # A forked process has the pool without its threads: waiting for those would wait forever.
+    os.register_at_fork(after_in_child=_pool.cache_clear)
+
+
 def _mark_worker() -> None:
     """Work that is handed on from a worker runs there: waiting for the pool from within it could wait forever."""
     _here.is_worker = True
