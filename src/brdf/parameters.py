@@ -79,18 +79,28 @@ class Parameter:
     def validated(self, name: str, value: Any) -> Value:
         """`value` as float (size 1) or float64 array (size 3). Raises ParameterError."""
         try:
-            array = np.asarray(value, np.float64)
+            given = np.asarray(value)
+            if given.dtype.kind not in "biuf":
+                raise TypeError
+            array = given.astype(np.float64)
         except (TypeError, ValueError):
             raise ParameterError(f"{name} must be {self._kind}, got {value!r}") from None
         if array.shape not in ((), (self.size,)):
             raise ParameterError(f"{name} must be {self._kind}, got shape {array.shape}")
-        if not np.all((array >= self.low) & (array <= self.high)):
-            raise ParameterError(f"{name} must lie in [{self.low:g}, {self.high:g}], got {_plain(array)}")
+        if not np.all((array >= self.low) & (array <= self.high) & np.isfinite(array)):
+            raise ParameterError(f"{name} must lie in {self.interval}, got {_plain(array)}")
         if self.size == 1:
             return float(array.reshape(()))
         array = np.broadcast_to(array, (self.size,)).copy()
         array.flags.writeable = False
         return array
+
+    @property
+    def interval(self) -> str:
+        """The bounds as mathematics writes them; infinity is never a value."""
+        low = "(-inf" if math.isinf(self.low) else f"[{self.low:g}"
+        high = "inf)" if math.isinf(self.high) else f"{self.high:g}]"
+        return f"{low}, {high}"
 
     @property
     def _kind(self) -> str:
@@ -169,7 +179,7 @@ class Parameterised:
         cls._declared = cls._declared | {k: v for k, v in own.items() if isinstance(v, Parameter)}
         cls._choices = cls._choices | {k: v for k, v in own.items() if isinstance(v, Choice)}
 
-    def __init__(self, **given: Any) -> None:
+    def __init__(self, /, **given: Any) -> None:
         self._chosen = {name: c.validated(name, given.pop(name, c.default)) for name, c in self._choices.items()}
         self._parts: dict[str, Parameterised] = {}
         for name, chosen in self._chosen.items():
@@ -257,6 +267,11 @@ class Parameterised:
                 if name in part.declarations():
                     return getattr(part, name)
         raise AttributeError(f"{type(self).__name__!r} has no attribute {name!r}")
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_") and (name in self._choices or name in self.declarations()):
+            raise AttributeError(f"{name} cannot be assigned; make a changed copy with replaced({name}=...)")
+        super().__setattr__(name, value)
 
     def __repr__(self) -> str:
         shown = [f"{k}={v!r}" for k, v in self._chosen.items() if len(self._choices[k].options) > 1]
