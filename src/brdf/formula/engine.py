@@ -36,7 +36,7 @@ def evaluate(reflectance: Any, wi: Any, wo: Any, clamp: bool) -> Any:
 
         if wi.dtype == np.float32 or _pays(reflectance, len(wi)) or kernels.is_ready(reflectance, "float64"):
             return kernels.evaluate(reflectance, wi, wo, clamp)
-    check_lengths(wi, wo)
+    check_lengths(wi=wi, wo=wo)
     value = np.empty_like(wi)
 
     def fill(start: int, stop: int) -> None:
@@ -71,9 +71,9 @@ def run(reflectance: Any, wi: Vec, wo: Vec, clamp: bool, number: Any = float) ->
     return guarded
 
 
-def check_lengths(wi: Any, wo: Any) -> None:
-    """Raises DirectionError when a direction is not of unit length."""
-    for name, w in (("wi", wi), ("wo", wo)):
+def check_lengths(**directions: Any) -> None:
+    """Raises DirectionError when one of the (N, 3) directions, given by name, is not of unit length."""
+    for name, w in directions.items():
         squared = np.einsum("ij,ij->i", w, w)
         bad = ~(np.abs(squared - 1) < 2 * LENGTH_TOLERANCE)
         if bad.any():

@@ -11,16 +11,18 @@ import functools
 import hashlib
 import importlib.util
 import os
+import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numba
 import numpy as np
 
-from ..threads import map_threads
+from ..threads import cores, map_threads
 from . import math32, math64
 from .engine import check_lengths
 from .printers.numba import BLOCK, print_kernel
@@ -30,6 +32,8 @@ _PER_TASK = 64 * BLOCK
 """Pairs a thread takes at a time."""
 
 _kernels: dict[tuple[Any, ...], Callable[..., int]] = {}
+_compilers: dict[Path, subprocess.Popen[bytes]] = {}
+"""Processes that are compiling a module ahead of its use."""
 
 
 def evaluate(reflectance: Any, wi: Any, wo: Any, clamp: bool) -> Any:
@@ -45,7 +49,7 @@ def evaluate(reflectance: Any, wi: Any, wo: Any, clamp: bool) -> Any:
     starts = range(0, len(wi), _PER_TASK)
     for bad in map_threads(run, starts):
         if bad >= 0:
-            check_lengths(wi[bad : bad + BLOCK], wo[bad : bad + BLOCK])
+            check_lengths(wi=wi[bad : bad + BLOCK], wo=wo[bad : bad + BLOCK])
     return out
 
 
@@ -53,16 +57,34 @@ def kernel_for(reflectance: Any, real: str) -> Callable[..., int]:
     """The compiled kernel of a reflectance for `real` = "float32" | "float64"."""
     key = (real, reflectance.structure)
     if key not in _kernels:
-        _kernels[key] = _loaded(_module_of(reflectance, real))
+        module = _module_of(reflectance, real)
+        compiler = _compilers.pop(module, None)
+        while compiler is not None and compiler.poll() is None and not _is_compiled(module):
+            time.sleep(0.02)
+        _kernels[key] = _loaded(module)
     return _kernels[key]
 
 
 def is_ready(reflectance: Any, real: str) -> bool:
     """Whether the kernel runs at once: it is loaded, or its machine code lies on disk."""
-    if (real, reflectance.structure) in _kernels:
-        return True
-    module = _module_of(reflectance, real)
-    return any(module.parent.glob(f"__pycache__/{module.stem}.*.nbc"))
+    return (real, reflectance.structure) in _kernels or _is_compiled(_module_of(reflectance, real))
+
+
+def compile_ahead(reflectances: Sequence[Any], real: str = "float32") -> None:
+    """Have a process of its own compile the kernels that are not ready, while this one goes on with other things."""
+    formulas = [m for m in reflectances if m.has_formula and not is_ready(m, real)]
+    if not formulas or cores() == 1:
+        return
+    modules = [_module_of(m, real) for m in formulas]
+    program = f"import sys, {__name__} as kernels\nfor path in sys.argv[1:]: kernels._loaded(kernels.Path(path))"
+    compiler = subprocess.Popen(
+        [sys.executable, "-c", program, *map(str, modules)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+    _compilers.update(dict.fromkeys(modules, compiler))
+
+
+def _is_compiled(module: Path) -> bool:
+    return any(module.parent.glob(f"__pycache__/{module.stem}.*.nbi"))
 
 
 def _module_of(reflectance: Any, real: str) -> Path:

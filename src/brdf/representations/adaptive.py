@@ -120,7 +120,7 @@ class Adaptive(Reflectance):
         if self.wavelengths is None:
             raise ReflectanceError(f"{self.name or 'this measurement'} holds RGB only, no spectrum")
         wi, wo, shape = broadcast_directions(wi, wo)
-        engine.check_lengths(wi, wo)
+        engine.check_lengths(wi=wi, wo=wo)
         return self._channels(self._measured, wi, wo, clamp=True).reshape(*shape, -1)
 
     def _channels(self, grid: NDArray[np.float32], wi: Floats, wo: Floats, clamp: bool) -> Floats:
