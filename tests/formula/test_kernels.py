@@ -136,6 +136,26 @@ def test_a_second_process_compiles_nothing(tmp_path):
     assert any(tmp_path.rglob("brdf_kernel_*.py"))
 
 
+def test_a_process_compiles_ahead(tmp_path, monkeypatch):
+    monkeypatch.setenv("BRDF_CACHE", str(tmp_path))
+    monkeypatch.setenv("BRDF_THREADS", "2")
+    kernels.cache_folder.cache_clear()
+    monkeypatch.setattr(kernels, "_kernels", {})
+    m = brdf.models.Lambertian()
+    try:
+        kernels.compile_ahead([m, m])
+        (compiler,) = set(kernels._compilers.values())
+        assert compiler.wait(timeout=120) == 0
+        assert kernels.is_ready(m, "float32")
+        wi = WI.astype("f4")
+        np.testing.assert_allclose(m(wi, WO.astype("f4")), 0.5 / np.pi, rtol=1e-6)
+        assert not kernels._compilers
+        kernels.compile_ahead([m])
+        assert not kernels._compilers  # nothing is left to do
+    finally:
+        kernels.cache_folder.cache_clear()
+
+
 def test_an_unwritable_cache_is_survived(tmp_path, monkeypatch):
     blocked = tmp_path / "file"
     blocked.write_text("")

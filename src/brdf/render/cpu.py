@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SceneError
+from ..formula.kernels import compile_ahead
 from ..reflectance import Reflectance
 from . import background as backgrounds
 from . import environment as environments
@@ -29,6 +30,8 @@ Floats = NDArray[np.float32]
 RAYS_AT_ONCE = 1 << 20
 """Camera rays traced together: bounds the memory (about 250 MB) whatever the size of the picture."""
 LARGEST_SIDE = 8192
+WORTH_COMPILING_AHEAD = 100_000
+"""Pixels above which the materials' kernels are sure to be needed."""
 
 
 def render(
@@ -92,6 +95,8 @@ def _render(
     samples = _count("samples", samples, 1, 65536)
     per_side = _count("supersampling", supersampling, 1, 16)
     seed = _count("seed", seed, 0, 2**31 - 1)
+    if width * height > WORTH_COMPILING_AHEAD:
+        compile_ahead(reflectances)
     scene = assembled(mesh, lights, env, camera, width / height)
     backdrop = backgrounds.check(background, scene.environment)
     surface = surface_of(scene.mesh)
