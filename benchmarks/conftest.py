@@ -1,7 +1,7 @@
 """What the benchmarks share: direction pairs, and how a measurement is recorded.
 
-Run with `uv run --group peers pytest benchmarks --benchmark-enable -s`. Each benchmark records its error and the ratio to a peer
-measured in the same run; nothing asserts a time.
+Run with `uv run --all-extras pytest benchmarks --benchmark-enable -s`. Each benchmark records its error and the ratio
+to a peer measured in the same run; nothing asserts a time.
 """
 
 from __future__ import annotations

@@ -60,3 +60,22 @@ def test_no_file_holds_a_path_of_a_machine_or_a_reminder(pattern: str) -> None:
 def test_modules_stay_readable() -> None:
     long = {str(p): n for p in (ROOT / "src").rglob("*.py") if (n := len(p.read_text("utf-8").splitlines())) > 400}
     assert long == {}
+
+
+def test_the_python_of_the_readme_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    (code,) = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text("utf-8"), re.S)
+    exec(compile(code, "README.md", "exec"), {})
+    assert {path.name for path in tmp_path.iterdir()} == {"teapot.png", "gold.safetensors"}
+
+
+def test_every_citation_is_in_the_bibliography() -> None:
+    known = set(re.findall(r"@\w+\{(\w+),", (ROOT / "docs" / "references.bib").read_text("utf-8")))
+    cited = {
+        key
+        for path in (ROOT / "src").rglob("*.py")
+        for sentence in re.findall(r"References?: ([^\n]*(?:\n    [A-Z]\w+\d{4}[^\n]*)*)", path.read_text("utf-8"))
+        for key in re.findall(r"\b[A-Z][A-Za-z]+\d{4}\b", sentence)
+    }
+    assert cited - known == set()
+    assert len(cited) > 10

@@ -97,7 +97,7 @@ def test_what_a_model_was_loaded_from_is_its_name() -> None:
         ("GGGX:alpha=.2", UnknownNameError),
         ("gold-metallic-paint@nobody", UnknownNameError),
         ("@bagher_sgd", UnknownNameError),
-        ("*GGX", UnknownNameError),
+        ("*GGX", ParameterError),
         ("2*", UnknownNameError),
         ("x.binary", FileError),
         ("a/b", FileError),

@@ -54,8 +54,8 @@ def test_values_cannot_be_changed_in_place() -> None:
         ({"order": 5.5}, r"order must lie in \[-1, 5\], got 5.5"),
         ({"order": -2}, r"order must lie in \[-1, 5\], got -2"),
         ({"order": float("nan")}, r"order must lie in \[-1, 5\], got nan"),
-        ({"tint": (0.1, float("nan"), 0.3)}, r"tint must lie in \[0, inf\], got \(0.1, nan, 0.3\)"),
-        ({"tint": (0.1, -0.2, 0.3)}, r"tint must lie in \[0, inf\], got \(0.1, -0.2, 0.3\)"),
+        ({"tint": (0.1, float("nan"), 0.3)}, r"tint must lie in \[0, inf\), got \(0.1, nan, 0.3\)"),
+        ({"tint": (0.1, -0.2, 0.3)}, r"tint must lie in \[0, inf\), got \(0.1, -0.2, 0.3\)"),
         ({"tint": (0.1, 0.2)}, r"tint must be a number or 3 numbers, got shape \(2,\)"),
         ({"tint": np.ones((3, 3))}, r"tint must be a number or 3 numbers, got shape \(3, 3\)"),
         ({"tint": "red"}, "tint must be a number or 3 numbers, got 'red'"),
@@ -248,3 +248,22 @@ def test_texture_refusals(given: object, message: str) -> None:
 def test_a_texture_of_the_other_choice() -> None:
     with pytest.raises(ParameterError, match=r"^curve has no effect with ramp='none'; it belongs to ramp='ramp'$"):
         Ramped(ramp="none", curve=[1, 2])
+
+
+@pytest.mark.parametrize("name", ["alpha", "F0", "ndf"])
+def test_a_parameter_cannot_be_assigned(name: str) -> None:
+    m = GGX(alpha=0.2)
+    with pytest.raises(AttributeError, match=rf"replaced\({name}="):
+        setattr(m, name, 0.5)
+    assert m.alpha == 0.2
+
+
+@pytest.mark.parametrize("value", ["0.2", None, 1j, [None]])
+def test_what_is_no_number_is_refused(value: object) -> None:
+    with pytest.raises(ParameterError, match="alpha must be a number, got"):
+        GGX(alpha=value)
+
+
+def test_self_is_a_parameter_name_like_any_other() -> None:
+    with pytest.raises(UnknownNameError, match="'self'"):
+        GGX(self=3)

@@ -30,10 +30,10 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     Raises FileError when the folder cannot be written.
     """
     target = Path(path)
-    if target.is_dir():
-        raise FileError(target, "is a folder; give a file name.")
     try:
-        handle, name = tempfile.mkstemp(prefix=f".{target.stem}-", suffix=target.suffix, dir=target.parent or ".")
+        if target.is_dir():
+            raise FileError(target, "is a folder; give a file name.")
+        handle, name = tempfile.mkstemp(prefix=".brdf-", suffix=target.suffix, dir=target.parent)
     except OSError as error:
         raise FileError(target, f"cannot be written ({error.strerror}); choose another place with -o.") from None
     os.close(handle)
@@ -71,7 +71,7 @@ def load(path: str | os.PathLike[str]) -> tuple[dict[str, Any], dict[str, NDArra
     try:
         header = json.loads(metadata["brdf"])
         schema = int(header["schema"])
-    except (KeyError, TypeError, ValueError):
+    except (KeyError, TypeError, ValueError, OverflowError, RecursionError):
         raise CorruptFileError(path, "a safetensors file, but not one of brdf's (its header is missing).") from None
     if schema > SCHEMA:
         raise CorruptFileError(path, f"written by a newer brdf (schema {schema}, known {SCHEMA}); upgrade brdf.")

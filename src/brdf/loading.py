@@ -65,6 +65,12 @@ def _atom(text: str) -> Reflectance:
         return materials.get(name, fit) if at else materials.get(name)
     if os.path.exists(text):
         return io.read(text)
+    if head.strip() in materials.names() and parameters:
+        raise ParameterError(f"{head.strip()} is a published fit and takes no parameters; models do, as GGX:alpha=0.2")
+    if at and name.strip().lower() in model_names:
+        raise ParameterError(f"{text!r}: a model has no published fits; give its parameters, as in GGX:alpha=0.2")
+    if "*" in text:
+        raise ParameterError(f"{text!r}: a factor is a number or three with slashes, as in 0.5*GGX or 1/.8/.3*GGX")
     if "=" in parameters:
         raise UnknownNameError("model", head.strip(), models.names())
     if Path(text).suffix or os.sep in text or "/" in text:

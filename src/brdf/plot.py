@@ -78,7 +78,7 @@ def overview(m: Reflectance) -> Figure:
     heights = (LOBE_HEIGHT, SLICE_HEIGHT, ALBEDO_HEIGHT)
     page = _figure(sum(heights))
     page.suptitle(_name(m), fontsize=12, parse_math=False)
-    first, second, third = page.subfigures(3, 1, height_ratios=heights)
+    first, second, third = page.subfigures(3, 1, height_ratios=heights, squeeze=False).flat
     _title(first, _draw_lobes(first, m, LOBE_HEIGHT))
     _title(second, _draw_slices(second, m))
     _title(third, _draw_albedo(third, m))

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import container
-from .errors import CorruptFileError, DirectionError, ReflectanceError
+from .errors import CorruptFileError, DirectionError, ParameterError, ReflectanceError
 from .formula import engine
 from .formula.backends import backend_of, is_foreign
 from .formula.vec import Vec
@@ -54,6 +54,9 @@ class Reflectance(ABC):
     breaks: ClassVar[Mapping[str, str]] = {}
     """Laws it is known to break, each with the reason and its source."""
     _kinds: ClassVar[dict[str, type[Reflectance]]] = {}
+
+    __array_ufunc__ = None
+    """NumPy leaves `array * m` to this class instead of making an array of reflectances."""
 
     name: str = ""
     source: str = ""
@@ -166,7 +169,7 @@ class Reflectance(ABC):
         if self.has_formula:
             value = engine.evaluate(self, wi, wo, clamp, place)
         else:
-            engine.check_lengths(wi, wo)
+            engine.check_lengths(wi=wi, wo=wo)
             value = (
                 self._evaluate_arrays(wi, wo, clamp) if place is None else self._evaluate_places(wi, wo, place, clamp)
             )
@@ -200,10 +203,17 @@ class Reflectance(ABC):
         the surface.
 
         Draws of a delta event (`is_delta`) come with the event's probability as their `pdf` and with its own weight.
+        Raises DirectionError, or ParameterError for `u` of another shape.
         """
-        wo, u = np.asarray(wo), np.asarray(u)
-        shape = np.broadcast_shapes(wo.shape[:-1], u.shape[:-1])
-        wo = np.broadcast_to(as_directions("wo", wo), (*shape, 3)).reshape(-1, 3)
+        wo, u = as_directions("wo", wo), np.asarray(u)
+        if u.ndim == 0 or u.shape[-1] != 2:
+            raise ParameterError(f"u must have shape (..., 2), got {u.shape}")
+        try:
+            shape = np.broadcast_shapes(wo.shape[:-1], u.shape[:-1])
+        except ValueError:
+            raise ParameterError(f"wo {wo.shape} and u {u.shape} do not broadcast") from None
+        wo = np.broadcast_to(wo, (*shape, 3)).reshape(-1, 3)
+        engine.check_lengths(wo=wo)
         wi, is_delta = self.sampler.sample(wo, np.broadcast_to(u, (*shape, 2)).reshape(-1, 2))
         pdf = self.sampler.pdf(wi, wo)
         cosine = np.abs(wi[:, 2]) if self.transmits else np.maximum(wi[:, 2], 0)
@@ -225,6 +235,7 @@ class Reflectance(ABC):
         place `uv`.
         """
         wi, wo, shape = broadcast_directions(wi, wo)
+        engine.check_lengths(wi=wi, wo=wo)
         return self.sampler.pdf(wi, wo).reshape(shape)
 
     def albedo(self, wo: ArrayLike, samples: int = 4096) -> Floats:
@@ -242,6 +253,8 @@ class Reflectance(ABC):
     def _albedo(self, wo: ArrayLike, samples: int) -> tuple[Floats, Floats]:
         from .geometry.quadrature import replicated_points
 
+        if not samples >= 1:
+            raise ParameterError(f"samples must be at least 1, got {samples!r}")
         points = replicated_points(samples)
         wo = as_directions("wo", np.asarray(wo))
         views = wo.reshape(-1, 1, 1, 3)
@@ -338,7 +351,7 @@ class Reflectance(ABC):
         header, arrays = container.load(path)
         try:
             return Reflectance.from_state(header, arrays)
-        except (KeyError, TypeError, ValueError, AttributeError) as error:
+        except (KeyError, TypeError, ValueError, AttributeError, RecursionError) as error:
             raise CorruptFileError(path, f"its header does not describe a reflectance ({error}).") from None
 
 
@@ -346,6 +359,8 @@ def as_directions(name: str, w: ArrayLike) -> Floats:
     """(..., 3) floats; float32 stays float32. Raises DirectionError."""
     array = np.asarray(w)
     if array.dtype != np.float32:
+        if array.dtype.kind == "c":
+            raise DirectionError(f"{name} must hold real numbers, got {array.dtype}")
         try:
             array = array.astype(np.float64, copy=False)
         except (TypeError, ValueError):

@@ -61,7 +61,12 @@ def test_an_unknown_fit_lists_the_known_ones(refused: Refused) -> None:
         ("GGX:F0=1/2", "F0 must be a number or 3 numbers, got shape (2,)"),
         ("Microfacet:ndf=gxx", "did you mean 'ggx'?"),
         ("GGX:alpha=.2 +", "empty term"),
-        ("-2*Lambertian", "scale must lie in [0, inf]"),
+        ("-2*Lambertian", "scale must lie in [0, inf)"),
+        ("1e999*Lambertian", "scale must lie in [0, inf), got inf"),
+        ("1/2*GGX", "a factor is a number or three with slashes"),
+        ("GGX:self=3", "unknown parameter of GGX 'self'"),
+        ("GGX@bagher_sgd", "a model has no published fits"),
+        ("gold-metallic-paint:alpha=.2", "takes no parameters"),
     ],
 )
 def test_a_wrong_parameter_is_named(refused: Refused, spec: str, said: str) -> None:
@@ -172,6 +177,49 @@ def test_an_rgl_file_with_a_corrupt_table_of_contents_is_refused(refused: Refuse
     assert "broken.bsdf: " in refused("info", "broken.bsdf")
 
 
+def test_an_rgl_field_of_absurd_length_is_refused(refused: Refused, tmp_path: Path) -> None:
+    """Its product of lengths is zero, so that the file seems large enough."""
+    entry = struct.pack("<H", 3) + b"rgb" + struct.pack("<HBQ2Q", 2, 10, 60, 2**63, 0)
+    (tmp_path / "vast.bsdf").write_bytes(RGL_MAGIC + bytes([1, 0]) + struct.pack("<I", 1) + entry + bytes(64))
+    assert "vast.bsdf: field 'rgb' claims" in refused("info", "vast.bsdf")
+
+
+def test_goniometer_values_beyond_float32_are_refused(refused: Refused, tmp_path: Path) -> None:
+    rows = [f"{theta} 0 0.1 0 1e300" for theta in (0, 0.1, 0.2, 0.3, 0.4)]
+    (tmp_path / "bright.brdf").write_text("\n".join(["1", "500", *rows]))
+    line = refused("info", "bright.brdf")
+    assert "bright.brdf: " in line
+    assert "finite" in line
+
+
+def test_a_saved_table_with_nan_is_refused(refused: Refused, tmp_path: Path) -> None:
+    from safetensors.numpy import load_file, save_file
+
+    from brdf import Table, container
+
+    path = tmp_path / "nan.safetensors"
+    Table.bake(models.GGX(), shape=(4, 4, 4), storage="float32").save(path)
+    header, arrays = container.load(path)
+    arrays["codes"][1, 2, 3] = np.nan
+    save_file(arrays, path, {"brdf": json.dumps(header)})
+    assert np.isnan(load_file(path)["codes"]).any()
+    assert "nan.safetensors: its header does not describe a reflectance (the table holds NaN" in refused(
+        "info", path.name
+    )
+
+
+@pytest.mark.parametrize(
+    "header",
+    ['{"schema": 1e999, "kind": "GGX"}', '{"schema": 1, "kind": "Sum"}', "[" * 100_000],
+    ids=["schema", "empty sum", "nesting"],
+)
+def test_a_header_without_sense_is_refused(refused: Refused, tmp_path: Path, header: str) -> None:
+    from safetensors.numpy import save_file
+
+    save_file({"weights": np.zeros(4, np.float32)}, tmp_path / "odd.safetensors", {"brdf": header})
+    assert "odd.safetensors: " in refused("info", "odd.safetensors")
+
+
 def test_a_truncated_safetensors_file_is_refused(refused: Refused, saved: Path) -> None:
     saved.write_bytes(saved.read_bytes()[:40])
     assert "good.safetensors: not a whole safetensors file" in refused("info", saved.name)
@@ -226,6 +274,12 @@ def test_an_output_that_cannot_be_written_is_named(
     line = refused(*command, place + extension)
     assert "cannot be written" in line or "is a folder" in line or "no extension" in line or "choose one" in line
     assert sorted(os.listdir(tmp_path)) == ["a-file"]
+
+
+def test_an_output_whose_name_is_too_long_is_named(refused: Refused, tmp_path: Path) -> None:
+    line = refused("render", "GGX", *DRAFT, "-o", "x" * 300 + ".png")
+    assert "cannot be written (File name too long)" in line
+    assert os.listdir(tmp_path) == []
 
 
 @pytest.mark.parametrize(
@@ -332,7 +386,9 @@ def test_a_wrong_light_is_named(refused: Refused, light: str, said: str) -> None
         ("--env", "studoi", "did you mean 'studio'?"),
         ("--env", "nan", "nan"),
         ("--env", "-1", "-1"),
+        ("--env", "1e39", "not finite"),
         ("--exposure", "inf", "exposure"),
+        ("--exposure", "5000", "exposure must lie in"),
     ],
 )
 def test_a_wrong_option_value_is_named(refused: Refused, tmp_path: Path, option: str, value: str, said: str) -> None:

@@ -63,7 +63,7 @@ def test_mix_refuses_shares_outside_0_to_1(t: float) -> None:
 
 
 def test_negative_scale_is_refused() -> None:
-    with pytest.raises(ParameterError, match=r"^scale must lie in \[0, inf\], got -1$"):
+    with pytest.raises(ParameterError, match=r"^scale must lie in \[0, inf\), got -1$"):
         _ = -1 * DIFFUSE
 
 
@@ -101,3 +101,26 @@ def test_saved_and_restored(tmp_path: Path) -> None:
 def test_albedo_of_a_sum_is_the_sum_of_albedos() -> None:
     wo = direction(40)
     np.testing.assert_allclose((DIFFUSE + GLOSSY).albedo(wo), DIFFUSE.albedo(wo) + GLOSSY.albedo(wo), rtol=0.01)
+
+
+def test_an_array_scales_a_reflectance_and_not_each_of_its_channels() -> None:
+    total = np.array([0.2, 0.5, 1.0]) * GLOSSY
+    assert isinstance(total, Scaled)
+    np.testing.assert_allclose(total(*PAIRS), GLOSSY(*PAIRS) * [0.2, 0.5, 1.0], rtol=1e-13)
+
+
+def test_a_mixture_takes_a_share_per_channel_and_names_a_wrong_one() -> None:
+    mixed = brdf.mix(DIFFUSE, GLOSSY, (0.0, 0.25, 1.0))
+    expected = DIFFUSE(*PAIRS) * [1, 0.75, 0] + GLOSSY(*PAIRS) * [0, 0.25, 1]
+    np.testing.assert_allclose(mixed(*PAIRS), expected, rtol=1e-13, atol=1e-300)
+    with pytest.raises(ParameterError, match=r"t must lie in \[0, 1\], got 1.5"):
+        brdf.mix(DIFFUSE, GLOSSY, 1.5)
+
+
+def test_a_factor_is_finite() -> None:
+    with pytest.raises(ParameterError, match=r"scale must lie in \[0, inf\), got inf"):
+        np.inf * GLOSSY
+
+
+def test_a_sum_shows_its_lobes() -> None:
+    assert repr(0.5 * GLOSSY + ROUGH) == f"(0.5, 0.5, 0.5) * {GLOSSY!r} + {ROUGH!r}"

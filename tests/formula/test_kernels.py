@@ -41,12 +41,17 @@ def on_numpy(m, wi, wo):
     return value
 
 
+def compiled(m, wi, wo):
+    """The kernel, whatever has been asked before."""
+    return kernels.evaluate(m, wi, wo, clamp=True)
+
+
 @pytest.mark.parametrize("name", REFLECTANCES)
 def test_kernel_equals_numpy(name):
     m = REFLECTANCES[name]()
     reference = on_numpy(m, WI, WO)
     wi, wo = WI.astype(np.float32), WO.astype(np.float32)
-    double, single = m(WI, WO), m(wi, wo)
+    double, single = compiled(m, WI, WO), m(wi, wo)
     assert double.dtype == np.float64
     assert single.dtype == np.float32
     assert np.isfinite(single).all()
@@ -60,32 +65,53 @@ def test_kernel_equals_numpy(name):
 def test_below_the_horizon_is_zero():
     m = brdf.models.GGX(alpha=0.3)
     down = WI * [1, 1, -1]
-    assert not m(down, WO).any()
-    assert not m(WI, WO * [1, 1, -1]).any()
+    assert not compiled(m, down, WO).any()
+    assert not compiled(m, WI, WO * [1, 1, -1]).any()
     assert not m(down[:10], WO[:10]).any()
 
 
 def test_wrong_lengths_are_refused_with_their_index():
     wi = WI.copy()
     wi[COUNT - 7] *= 1.01
-    with pytest.raises(DirectionError, match=r"wi .*length 1\.01"):
-        brdf.models.Lambertian()(wi, WO)
-    wo = WO.copy()
-    wo[3] = np.nan
-    with pytest.raises(DirectionError, match=r"wo .*flat index 3 has length nan"):
-        brdf.models.Lambertian()(WI, wo)
+    for evaluate in (lambda *w: brdf.models.Lambertian()(*w), lambda *w: compiled(brdf.models.Lambertian(), *w)):
+        with pytest.raises(DirectionError, match=r"wi .*length 1\.01"):
+            evaluate(wi, WO)
+        wo = WO.copy()
+        wo[3] = np.nan
+        with pytest.raises(DirectionError, match=r"wo .*flat index 3 has length nan"):
+            evaluate(WI, wo)
 
 
 def test_strided_and_broadcast_inputs():
     m = brdf.models.GGX(alpha=0.3)
     interleaved = np.concatenate([WI, WO], 1)
-    np.testing.assert_array_equal(m(interleaved[:, :3], interleaved[:, 3:]), m(WI, WO))
+    expected = compiled(m, WI, WO)
+    np.testing.assert_array_equal(compiled(m, interleaved[:, :3], interleaved[:, 3:]), expected)
     np.testing.assert_array_equal(m(WI, Z), m(WI, np.broadcast_to(Z, WI.shape).copy()))
+
+
+def test_float64_waits_until_compiling_pays(tmp_path, monkeypatch):
+    monkeypatch.setenv("BRDF_CACHE", str(tmp_path))
+    kernels.cache_folder.cache_clear()
+    monkeypatch.setattr(kernels, "_kernels", {})
+    monkeypatch.setattr(engine, "_asked", {})
+    monkeypatch.setattr(engine, "WORTH_COMPILING", 2.5 * COUNT)
+    m = brdf.models.Lambertian()
+    try:
+        m(WI, WO), m(WI, WO)
+        assert not kernels.is_ready(m, "float64")
+        m(WI, WO)
+        assert kernels.is_ready(m, "float64")
+        monkeypatch.setattr(kernels, "_kernels", {})
+        assert kernels.is_ready(m, "float64")  # on disk
+        assert not kernels.is_ready(brdf.models.GGX(), "float64")
+    finally:
+        kernels.cache_folder.cache_clear()
 
 
 def test_results_do_not_depend_on_the_number_of_threads(monkeypatch):
     m = brdf.models.GGX(alpha=0.3)
-    wi, wo = (np.tile(w, (4, 1)) for w in (WI, WO))
+    wi, wo = (np.tile(w, (4, 1)).astype("f4") for w in (WI, WO))
     many = m(wi, wo)
     monkeypatch.setenv("BRDF_THREADS", "1")
     np.testing.assert_array_equal(m(wi, wo), many)
@@ -96,7 +122,7 @@ def test_a_second_process_compiles_nothing(tmp_path):
         "import numpy as np, brdf\n"
         "from numba.core import event\n"
         "with event.install_recorder('numba:compile') as recorder:\n"
-        "    w = np.tile([[0.6, 0.0, 0.8]], (30000, 1)); value = brdf.models.Lambertian()(w, w)\n"
+        "    w = np.tile(np.float32([[0.6, 0.0, 0.8]]), (30000, 1)); value = brdf.models.Lambertian()(w, w)\n"
         "print(len(recorder.buffer), value[0, 0])"
     )
     environment = os.environ | {"BRDF_CACHE": str(tmp_path)}
@@ -108,6 +134,26 @@ def test_a_second_process_compiles_nothing(tmp_path):
     assert compiled[0] > 0
     assert compiled[1] == 0
     assert any(tmp_path.rglob("brdf_kernel_*.py"))
+
+
+def test_a_process_compiles_ahead(tmp_path, monkeypatch):
+    monkeypatch.setenv("BRDF_CACHE", str(tmp_path))
+    monkeypatch.setenv("BRDF_THREADS", "2")
+    kernels.cache_folder.cache_clear()
+    monkeypatch.setattr(kernels, "_kernels", {})
+    m = brdf.models.Lambertian()
+    try:
+        kernels.compile_ahead([m, m])
+        (compiler,) = set(kernels._compilers.values())
+        assert compiler.wait(timeout=120) == 0
+        assert kernels.is_ready(m, "float32")
+        wi = WI.astype("f4")
+        np.testing.assert_allclose(m(wi, WO.astype("f4")), 0.5 / np.pi, rtol=1e-6)
+        assert not kernels._compilers
+        kernels.compile_ahead([m])
+        assert not kernels._compilers  # nothing is left to do
+    finally:
+        kernels.cache_folder.cache_clear()
 
 
 def test_an_unwritable_cache_is_survived(tmp_path, monkeypatch):

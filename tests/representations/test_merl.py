@@ -16,7 +16,7 @@ from brdf.models import GGX, Lambertian
 from brdf.reflectance import Reflectance
 from brdf.representations.bases import HalfBasis
 from brdf.representations.merl import LAYOUT, from_merl, to_merl
-from brdf.representations.slice_stack import MEASURED_FLOOR, SliceStack, floor_quantile
+from brdf.representations.slice_stack import MEASURED_FLOOR, SliceStack, is_measured
 
 ROUNDING = 1e-12
 """One bin, (60, 50, 0), lies on the horizon to the last bit."""
@@ -188,8 +188,9 @@ def test_measured_stack_leaves_holes_out():
 
 
 def test_floor_of_measured_data_is_a_quantile(noise_table):
-    assert floor_quantile(noise_table) == MEASURED_FLOOR
-    assert floor_quantile(Lambertian()) == 0
+    assert is_measured(noise_table)
+    assert not is_measured(Lambertian())
+    assert 0 < MEASURED_FLOOR < 0.1
     values = noise_table(WI, WO)
     floor = SliceStack.bake(noise_table).values["floor"]
     assert np.all(floor > math.pi * 0.1)
@@ -230,3 +231,14 @@ def test_layout_is_merls():
     np.testing.assert_allclose(theta_h, (np.arange(90) / 90) ** 2 * 90, atol=1e-10)
     np.testing.assert_allclose(theta_d, np.arange(90), atol=1e-10)
     np.testing.assert_allclose(phi_d, np.arange(181), atol=1e-10)
+
+
+def test_measured_stack_averages_the_directions_it_folds():
+    """A table whose two mirror halves differ is met in the middle."""
+    plain = to_merl(Lambertian(albedo=0.4))
+    skewed = plain.copy()
+    skewed[:, :, 91:] *= 1.5  # phi_d > 90 degrees: the mirror image of phi_d < 90
+    stack = SliceStack.bake(from_merl(skewed))
+    clear = (WI[:, 2] > 0.4) & (WO[:, 2] > 0.4)
+    relative = np.median(stack(WI, WO)[clear] / (0.4 / math.pi))
+    assert relative == pytest.approx(1.25, abs=0.02)

@@ -91,6 +91,17 @@ def test_moves_nodes_above_the_horizon(basis):
     np.testing.assert_allclose(wi[clear], kept_wi[clear], atol=1e-12)
 
 
+@pytest.mark.parametrize("basis", [HalfBasis("half-turn"), HalfBasis("quarter-turn"), NormalBasis()], ids=str)
+def test_images_have_the_same_angles(basis):
+    expected = [np.arctan2(a.sine, a.cosine) for a in basis.angles(Vec(*WI.T), Vec(*WO.T))]
+    images = basis.images(WI, WO)
+    assert len(images) == {"half-turn": 2, "quarter-turn": 4}.get(getattr(basis, "fold", ""), 2)
+    for wi, wo in images:
+        angles = basis.angles(Vec(*wi.T), Vec(*wo.T))
+        for angle, value in zip(angles, expected, strict=True):
+            np.testing.assert_allclose(np.arctan2(angle.sine, angle.cosine), value, atol=1e-9)
+
+
 def test_cos_difference():
     cosine = cos_difference(Vec(*WI.T), Vec(*WO.T))
     np.testing.assert_allclose(2 * cosine**2 - 1, np.einsum("ij,ij->i", WI, WO), atol=1e-12)

@@ -15,11 +15,15 @@ from ..geometry.sampling import MixtureSampler, Sampler
 from ..parameters import RGB, Parameterised, rgb
 from ..reflectance import Floats, Reflectance
 
+_SHARE = rgb("share of the second", default=0.5, low=0.0, high=1.0)
+
 
 class Sum(Reflectance):
     """f = f1 + f2 + …; its lobes are `lobe1`, `lobe2`, …"""
 
     def __init__(self, lobes: list[Reflectance]) -> None:
+        if not lobes:
+            raise ValueError("a sum needs at least one lobe")
         self._children = {f"lobe{i + 1}": lobe for i, lobe in enumerate(lobes)}
         self.name = " + ".join(lobe.name or type(lobe).__name__ for lobe in lobes)
 
@@ -95,6 +99,9 @@ class Sum(Reflectance):
     @classmethod
     def _restore(cls, header: Any, arrays: Any, children: Mapping[str, Reflectance]) -> Reflectance:
         return cls(list(children.values()))
+
+    def __repr__(self) -> str:
+        return " + ".join(map(repr, self._children.values()))
 
 
 class Scaled(Parameterised, Reflectance):
@@ -192,9 +199,10 @@ def scaled(base: Reflectance, scale: Any) -> Scaled:
     return Scaled(base, scale)
 
 
-def mix(a: Reflectance, b: Reflectance, t: float) -> Sum:
-    """(1 - t) a + t b, t in [0, 1]."""
-    return add(scaled(a, 1 - t), scaled(b, t))
+def mix(a: Reflectance, b: Reflectance, t: Any) -> Sum:
+    """(1 - t) a + t b; `t` is a number or an RGB triple in [0, 1]. Raises ParameterError."""
+    share = _SHARE.validated("t", t)
+    return add(scaled(a, 1 - share), scaled(b, share))
 
 
 def lobes(base: Reflectance, count: int) -> Sum:
@@ -208,5 +216,4 @@ def lobes(base: Reflectance, count: int) -> Sum:
 
 def _typical_albedo(lobe: Reflectance) -> float:
     """A weight for choosing between lobes: the mean albedo at 45 degrees. It only steers the sampling."""
-    # through the class: a model may have a parameter called albedo
     return float(lobe.albedo([np.sqrt(0.5), 0.0, np.sqrt(0.5)], samples=256).mean())

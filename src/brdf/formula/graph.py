@@ -170,6 +170,8 @@ class Graph:
         if isinstance(value, Expr):
             return value
         try:
+            if isinstance(value, str):  # float() would read "1" as a number
+                raise TypeError
             return self._make("constant", value=bool(value) if isinstance(value, bool) else float(value))
         except (TypeError, ValueError) as error:
             raise FormulaError(f"a formula mixes traced values with {type(value).__name__}") from error

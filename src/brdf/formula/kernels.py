@@ -11,16 +11,18 @@ import functools
 import hashlib
 import importlib.util
 import os
+import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
+import time
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 import numba
 import numpy as np
 
+from ..threads import cores, map_threads
 from . import math32, math64
 from .engine import check_lengths
 from .printers.numba import BLOCK, print_kernel
@@ -30,6 +32,8 @@ _PER_TASK = 64 * BLOCK
 """Pairs a thread takes at a time."""
 
 _kernels: dict[tuple[Any, ...], Callable[..., int]] = {}
+_compilers: dict[Path, subprocess.Popen[bytes]] = {}
+"""Processes that are compiling a module ahead of its use."""
 
 
 def evaluate(reflectance: Any, wi: Any, wo: Any, clamp: bool, uv: Any = None) -> Any:
@@ -46,66 +50,70 @@ def evaluate(reflectance: Any, wi: Any, wo: Any, clamp: bool, uv: Any = None) ->
     starts = range(0, len(wi), _PER_TASK)
     for bad in map_threads(run, starts):
         if bad >= 0:
-            check_lengths(wi[bad : bad + BLOCK], wo[bad : bad + BLOCK])
+            check_lengths(wi=wi[bad : bad + BLOCK], wo=wo[bad : bad + BLOCK])
     return out
-
-
-def map_threads(function: Callable[[int], Any], arguments: Any) -> list[Any]:
-    """`function` of each argument, on all cores; for functions that release the interpreter lock."""
-    if len(arguments) < 2 or thread_count() == 1:
-        return [function(argument) for argument in arguments]
-    return list(_pool().map(function, arguments))
-
-
-def thread_count() -> int:
-    """Threads in use: `BRDF_THREADS`, else the cores this process may run on."""
-    given = os.environ.get("BRDF_THREADS", "")
-    return (
-        max(1, int(given))
-        if given.isdigit()
-        else len(os.sched_getaffinity(0))
-        if hasattr(os, "sched_getaffinity")
-        else os.cpu_count() or 1
-    )
-
-
-@functools.cache
-def _pool() -> ThreadPoolExecutor:
-    return ThreadPoolExecutor(thread_count(), thread_name_prefix="brdf")
 
 
 def kernel_for(reflectance: Any, real: str) -> Callable[..., int]:
     """The compiled kernel of a reflectance for `real` = "float32" | "float64"."""
     key = (real, reflectance.structure)
     if key not in _kernels:
-        source = print_kernel(
-            trace(reflectance), real, has_horizon=not reflectance.transmits, varies=reflectance.varies
-        )
-        _kernels[key] = _compiled(source)
+        module = _module_of(reflectance, real)
+        compiler = _compilers.pop(module, None)
+        while compiler is not None and compiler.poll() is None and not _is_compiled(module):
+            time.sleep(0.02)
+        _kernels[key] = _loaded(module)
     return _kernels[key]
 
 
-@functools.cache
-def _compiled(source: str) -> Callable[..., int]:
-    """The kernel of a generated module, through the cache on disk."""
+def is_ready(reflectance: Any, real: str) -> bool:
+    """Whether the kernel runs at once: it is loaded, or its machine code lies on disk."""
+    return (real, reflectance.structure) in _kernels or _is_compiled(_module_of(reflectance, real))
+
+
+def compile_ahead(reflectances: Sequence[Any], real: str = "float32") -> None:
+    """Have a process of its own compile the kernels that are not ready, while this one goes on with other things."""
+    formulas = [m for m in reflectances if m.has_formula and not is_ready(m, real)]
+    if not formulas or cores() == 1:
+        return
+    modules = [_module_of(m, real) for m in formulas]
+    program = f"import sys, {__name__} as kernels\nfor path in sys.argv[1:]: kernels._loaded(kernels.Path(path))"
+    compiler = subprocess.Popen(
+        [sys.executable, "-c", program, *map(str, modules)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
+    _compilers.update(dict.fromkeys(modules, compiler))
+
+
+def _is_compiled(module: Path) -> bool:
+    return any(module.parent.glob(f"__pycache__/{module.stem}.*.nbi"))
+
+
+def _module_of(reflectance: Any, real: str) -> Path:
+    """The generated module on disk, written if it is not there."""
+    source = print_kernel(trace(reflectance), real, has_horizon=not reflectance.transmits, varies=reflectance.varies)
     digest = hashlib.sha256((source + _environment()).encode()).hexdigest()[:24]
-    name = f"brdf_kernel_{digest}"
-    path = cache_folder() / f"{name}.py"
+    path = cache_folder() / f"brdf_kernel_{digest}.py"
     if not path.exists():
         handle, temporary = tempfile.mkstemp(dir=path.parent, suffix=".tmp")
         with os.fdopen(handle, "w") as file:
             file.write(source)
         os.replace(temporary, path)
-    spec = importlib.util.spec_from_file_location(name, path)
+    return path
+
+
+def _loaded(path: Path) -> Callable[..., int]:
+    """The kernel of a generated module: compiled, or loaded from numba's cache beside it."""
+    spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    sys.modules[name] = module
+    sys.modules[path.stem] = module
     spec.loader.exec_module(module)
     kernel: Callable[..., int] = module.kernel
     return kernel
 
 
+@functools.cache
 def _environment() -> str:
     """What the machine code depends on beside the source."""
     parts = [Path(str(module.__file__)).read_text() for module in (math32, math64)]

@@ -7,13 +7,14 @@ density is the exact blend. A share of the draws, chosen node by node, is cosine
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .directions import cosine_weighted, dot, from_spherical, reflected
+from ..threads import in_ranges
+from .directions import dot, from_spherical, reflected
 
 Floats = NDArray[np.floating[Any]]
 
@@ -26,8 +27,8 @@ COSINE_SHARES = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.75, 0.95)
 SUBSAMPLES = 2
 """Values taken along each side of a cell."""
 
-BLOCK = 1 << 15
-"""Directions worked on at once, so that the intermediate arrays stay in the processor's cache."""
+BLOCK = 1 << 14
+"""Directions a thread takes at a time."""
 
 
 class _Grid(NamedTuple):
@@ -49,9 +50,9 @@ class _Table(NamedTuple):
     shares: NDArray[np.float64]
     """(n,) share of cosine-weighted draws"""
     rings: NDArray[np.float64]
-    """(n * t,) node index + cumulative probability of the rings"""
+    """(n * t,) cumulative probability of the node's rings"""
     sectors: NDArray[np.float64]
-    """(n * t * p,) ring index + cumulative probability of its sectors"""
+    """(n * t * p,) cumulative probability of the ring's sectors"""
     density: NDArray[np.float64]
     """(n * t * p,) density of h times (1 - share) / 4 [1/sr]"""
 
@@ -79,96 +80,23 @@ class TabulatedSampler:
 
     def sample(self, wo: Floats, u: Floats) -> tuple[Floats, NDArray[np.bool_]]:
         """As `Sampler.sample`."""
-        table, wi = self._table, np.empty_like(wo)
-        for block in _blocks(len(wo)):
-            wi[block] = self._sample(table, wo[block], u[block].astype(np.float64))
+        from . import tabulated_kernels as kernels
+
+        table, wi, u = self._table, np.empty(wo.shape, wo.dtype), u.astype(np.float64, copy=False)
+        draw = kernels.compiled(kernels.sample, wo.dtype.name)
+        tables = (table.shares, table.rings, table.sectors, tuple(self._grid), THETA_O_LAST, self._isotropic)
+        in_ranges(lambda start, stop: draw(start, stop, wo, u, *tables, wi), len(wo), BLOCK)
         return wi, np.zeros(len(wo), bool)
-
-    def _sample(self, table: _Table, wo: Floats, u: Floats) -> Floats:
-        grid, first, second = self._grid, u[:, 0], u[:, 1]
-        node = np.zeros(len(wo), np.intp)
-        for lower, upper, weight, stride in self._neighbours(wo):
-            up, first = _choice(first, weight)
-            node += np.where(up, upper, lower) * stride
-        diffuse, first = _choice(first, table.shares[node])
-
-        ring, along = _inverted(table.rings, node, first, grid.theta_h)
-        sector, around = _inverted(table.sectors, ring, second, grid.phi_h)
-        inner, outer = _ring_edge(ring % grid.theta_h, grid), _ring_edge(ring % grid.theta_h + 1, grid)
-        t = inner + along * (outer - inner)
-        phi = (sector % grid.phi_h + around) * (2 * np.pi / grid.phi_h)
-        radius, cosine, sine = np.sqrt(t * (2 - t)), np.cos(phi), np.sin(phi)
-        if self._isotropic:
-            cos_o, sin_o = _azimuth(wo)
-            cosine, sine = cosine * cos_o - sine * sin_o, sine * cos_o + cosine * sin_o
-        h = np.stack([radius * cosine, radius * sine, 1 - t], axis=-1).astype(wo.dtype, copy=False)
-        wi = reflected(wo, h)
-        wi[diffuse] = cosine_weighted(np.stack([first[diffuse], second[diffuse]], axis=-1))
-        return wi
 
     def pdf(self, wi: Floats, wo: Floats) -> Floats:
         """As `Sampler.pdf`."""
-        table, density = self._table, np.empty(len(wi), wi.dtype)
-        for block in _blocks(len(wi)):
-            density[block] = self._pdf(table, wi[block], wo[block])
-        return density
+        from . import tabulated_kernels as kernels
 
-    def _pdf(self, table: _Table, wi: Floats, wo: Floats) -> Floats:
-        grid = self._grid
-        h = wi + wo
-        length = np.sqrt(dot(h, h))
-        usable = (wi[:, 2] > 0) & (wo[:, 2] > 0) & (length > 0)
-        safe = np.where(usable, length, 1)
-        x, y, z = h[:, 0] / safe, h[:, 1] / safe, np.where(usable, h[:, 2] / safe, 1)
-        t = ((x * x + y * y) / (1 + z)).clip(0, 1)
-        ring = (np.cbrt(np.sqrt(t)) * grid.theta_h).astype(np.intp).clip(0, grid.theta_h - 1)
-        if self._isotropic:
-            cos_o, sin_o = _azimuth(wo)
-            x, y = x * cos_o + y * sin_o, y * cos_o - x * sin_o
-        sector = (np.arctan2(y, x) * (grid.phi_h / (2 * np.pi))).astype(np.float64)
-        cell = ring * grid.phi_h + np.floor(sector).astype(np.intp) % grid.phi_h
-
-        nodes = [(np.zeros(len(wi), np.intp), np.ones(len(wi)))]
-        for lower, upper, weight, stride in self._neighbours(wo):
-            ends = ((lower, 1 - weight), (upper, weight))
-            nodes = [(n + end * stride, w * blend) for n, w in nodes for end, blend in ends]
-        cells = grid.theta_h * grid.phi_h
-        share = sum(w * table.shares[n] for n, w in nodes)
-        lobe = sum(w * table.density[n * cells + cell] for n, w in nodes)
-        # a half vector's solid angle is that of wi over 4 wo.h, and wo.h is half the length of wi + wo
-        return np.where(usable, share * wi[:, 2] / np.pi + lobe / (safe / 2), 0)
-
-    def _neighbours(self, wo: Floats) -> Iterator[tuple[Any, Any, Floats, int]]:
-        """Per axis of the nodes: lower and upper index, weight of the upper one, stride of the axis."""
-        grid = self._grid
-        theta = np.arccos(wo[:, 2].astype(np.float64).clip(-1, 1))
-        position = np.minimum(theta / THETA_O_LAST, 1) * (grid.theta_o - 1)
-        lower = np.minimum(position.astype(np.intp), grid.theta_o - 2)
-        yield lower, lower + 1, position - lower, grid.phi_o
-        if grid.phi_o > 1:
-            position = np.arctan2(wo[:, 1], wo[:, 0]).astype(np.float64) * (grid.phi_o / (2 * np.pi))
-            lower = np.floor(position).astype(np.intp)
-            yield lower % grid.phi_o, (lower + 1) % grid.phi_o, position - lower, 1
-
-
-def _blocks(count: int) -> Iterator[slice]:
-    for start in range(0, count, BLOCK):
-        yield slice(start, start + BLOCK)
-
-
-def _choice(u: Floats, share: Floats) -> tuple[NDArray[np.bool_], Floats]:
-    """What happens with probability `share` (N,), decided by `u` (N,) in [0, 1), and the uniform numbers left over."""
-    happens = u < share
-    left = (u - np.where(happens, 0, share)) / np.where(happens, share, 1 - share)
-    return happens, left.clip(0, np.nextafter(1, 0))
-
-
-def _azimuth(w: Floats) -> tuple[Floats, Floats]:
-    """Cosine and sine of the azimuth; 1 and 0 along the normal."""
-    radius = np.hypot(w[:, 0], w[:, 1])
-    off_axis = radius > 0
-    safe = np.where(off_axis, radius, 1)
-    return np.where(off_axis, w[:, 0] / safe, 1), np.where(off_axis, w[:, 1] / safe, 0)
+        table, pdf = self._table, np.empty(len(wi), wi.dtype)
+        fill = kernels.compiled(kernels.density, wi.dtype.name)
+        tables = (table.shares, table.density, tuple(self._grid), THETA_O_LAST, self._isotropic)
+        in_ranges(lambda start, stop: fill(start, stop, wi, wo, *tables, pdf), len(wi), BLOCK)
+        return pdf
 
 
 def _ring_edge(index: NDArray[np.intp], grid: _Grid) -> NDArray[np.float64]:
@@ -184,19 +112,6 @@ def _ring_edges(grid: _Grid) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return _ring_edge(rings, grid), _ring_edge(rings + 1, grid)
 
 
-def _inverted(cumulative: NDArray[np.float64], row: Any, u: Any, size: int) -> tuple[Any, NDArray[np.float64]]:
-    """The entry that `u` falls into within a row of cumulative probabilities, and where in it, in [0, 1].
-
-    Entry e of row r holds r + (probability of the row's entries up to and with e): the whole array is sorted.
-    """
-    key = row + u
-    entry = np.searchsorted(cumulative, key, side="right")
-    entry = np.clip(entry, row * size, row * size + size - 1)
-    below = np.where(entry % size == 0, row, cumulative[entry - 1])
-    width = cumulative[entry] - below
-    return entry, np.clip(np.divide(key - below, width, out=np.full_like(key, 0.5), where=width > 0), 0, 1)
-
-
 def _tabulated(reflectance: Callable[[Floats, Floats], Floats], grid: _Grid) -> _Table:
     """Evaluate the reflectance node by node."""
     made = [_node(reflectance, wo, grid) for wo in _node_directions(grid)]
@@ -208,15 +123,13 @@ def _tabulated(reflectance: Callable[[Floats, Floats], Floats], grid: _Grid) -> 
     inner, outer = _ring_edges(grid)
     solid_angle = (outer - inner) * (2 * np.pi / grid.phi_h)
     density = mass / solid_angle[:, None] * ((1 - shares) / 4)[:, None, None]
-    return _Table(shares, _keys(rings), _keys(sectors), density.ravel())
+    return _Table(shares, _cumulative(rings), _cumulative(sectors), density.ravel())
 
 
-def _keys(probabilities: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Cumulative probabilities along the last axis plus the index of the row, flat and sorted."""
-    rows = probabilities.reshape(-1, probabilities.shape[-1])
-    cumulative = np.minimum(np.cumsum(rows, axis=-1), 1)
-    keys: NDArray[np.float64] = cumulative + np.arange(float(len(rows)))[:, None]
-    return keys.ravel()
+def _cumulative(probabilities: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Cumulative probabilities along the last axis, flat."""
+    sums: NDArray[np.float64] = np.minimum(np.cumsum(probabilities, axis=-1), 1)
+    return sums.ravel()
 
 
 def _node_directions(grid: _Grid) -> NDArray[np.float64]:

@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import CorruptFileError, ParameterError
+from ..errors import CorruptFileError
 from ..geometry.directions import from_spherical
 from ..reflectance import Reflectance
 from ..representations.scattered import Scattered
@@ -41,7 +41,7 @@ def read(path: Path) -> Reflectance:
     wi, wo = (from_spherical(angles[:, k], angles[:, k + 1]) for k in (0, 2))
     try:
         made = Scattered.from_samples(wi, wo, values, wavelengths)
-    except ParameterError as error:
+    except ValueError as error:
         raise CorruptFileError(path, f"{error}.") from None
     return made.named(path.stem, f"goniometer file {path.name}, {len(values)} measurements")
 

@@ -82,7 +82,7 @@ def read_tensors(path: Path) -> dict[str, NDArray[Any]]:
         tensors = {}
         for name, (dtype, offset, shape) in contents.items():
             nbytes = math.prod(shape) * dtype.itemsize
-            if offset < end_of_contents or offset + nbytes > cursor.size:
+            if offset < end_of_contents or offset + nbytes > cursor.size or max(shape, default=0) > cursor.size:
                 place = f"bytes {offset} to {offset + nbytes} of a file of {cursor.size}"
                 raise CorruptFileError(path, f"field {name!r} claims {place}; fetch it again.")
             cursor.file.seek(offset)

@@ -32,4 +32,4 @@ def __getattr__(name: str) -> Any:
     raise AttributeError(f"no model {name!r}; known: {', '.join(names())}")
 
 
-__all__ = ["Model", "get", "names"]  # noqa: PLE0604
+__all__ = ["Model", "get", "names"]

@@ -23,7 +23,7 @@ class Model(Parameterised, Reflectance):
         if cls.f is not Reflectance.f:
             REGISTRY[cls.__name__] = cls
 
-    def __init__(self, **values: Any) -> None:
+    def __init__(self, /, **values: Any) -> None:
         super().__init__(**values)
         self.name = type(self).__name__
 

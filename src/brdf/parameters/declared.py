@@ -73,18 +73,28 @@ class Parameter:
     def validated(self, name: str, value: Any) -> Value:
         """`value` as float (size 1) or float64 array (size 3). Raises ParameterError."""
         try:
-            array = np.asarray(value, np.float64)
+            given = np.asarray(value)
+            if given.dtype.kind not in "biuf":
+                raise TypeError
+            array = given.astype(np.float64)
         except (TypeError, ValueError):
             raise ParameterError(f"{name} must be {self._kind}, got {value!r}") from None
         if array.shape not in ((), (self.size,)):
             raise ParameterError(f"{name} must be {self._kind}, got shape {array.shape}")
-        if not np.all((array >= self.low) & (array <= self.high)):
-            raise ParameterError(f"{name} must lie in [{self.low:g}, {self.high:g}], got {plain(array)}")
+        if not np.all((array >= self.low) & (array <= self.high) & np.isfinite(array)):
+            raise ParameterError(f"{name} must lie in {self.interval}, got {plain(array)}")
         if self.size == 1:
             return float(array.reshape(()))
         array = np.broadcast_to(array, (self.size,)).copy()
         array.flags.writeable = False
         return array
+
+    @property
+    def interval(self) -> str:
+        """The bounds as mathematics writes them; infinity is never a value."""
+        low = "(-inf" if math.isinf(self.low) else f"[{self.low:g}"
+        high = "inf)" if math.isinf(self.high) else f"{self.high:g}]"
+        return f"{low}, {high}"
 
     @property
     def _kind(self) -> str:

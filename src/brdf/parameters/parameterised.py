@@ -33,7 +33,7 @@ class Parameterised:
         cls._declared_textures = cls._declared_textures | {k: v for k, v in own.items() if isinstance(v, Texture)}
         cls._choices = cls._choices | {k: v for k, v in own.items() if isinstance(v, Choice)}
 
-    def __init__(self, **given: Any) -> None:
+    def __init__(self, /, **given: Any) -> None:
         self._chosen = {name: c.validated(name, given.pop(name, c.default)) for name, c in self._choices.items()}
         self._parts: dict[str, Parameterised] = {}
         for name, chosen in self._chosen.items():
@@ -161,6 +161,13 @@ class Parameterised:
                 if name in part.declarations() or name in part.declared_textures():
                     return getattr(part, name)
         raise AttributeError(f"{type(self).__name__!r} has no attribute {name!r}")
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_") and (
+            name in self._choices or name in self.declarations() or name in self.declared_textures()
+        ):
+            raise AttributeError(f"{name} cannot be assigned; make a changed copy with replaced({name}=...)")
+        super().__setattr__(name, value)
 
     def __repr__(self) -> str:
         shown = [f"{k}={v!r}" for k, v in self._chosen.items() if len(self._choices[k].options) > 1]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -65,10 +66,11 @@ def _fitting(labels: tuple[str, str], size: int, width: float) -> Any:
 
 @cache
 def _font(size: int) -> Any:
-    import matplotlib
     from PIL import ImageFont
 
-    return ImageFont.truetype(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / "DejaVuSans.ttf", size)
+    matplotlib = find_spec("matplotlib")  # the font lies in its data; importing it would take half a second
+    folder = Path(str(matplotlib.origin)).parent if matplotlib else Path()
+    return ImageFont.truetype(folder / "mpl-data" / "fonts" / "ttf" / "DejaVuSans.ttf", size)
 
 
 def _letters(shape: tuple[int, ...], text: str, font: Any, at: tuple[float, float], anchor: str) -> NDArray[np.float32]:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, SceneError
+from ..formula.kernels import compile_ahead
 from ..reflectance import Reflectance
 from . import background as backgrounds
 from . import environment as environments
@@ -29,6 +30,8 @@ Floats = NDArray[np.float32]
 RAYS_AT_ONCE = 1 << 20
 """Camera rays traced together: bounds the memory (about 250 MB) whatever the size of the picture."""
 LARGEST_SIDE = 8192
+WORTH_COMPILING_AHEAD = 100_000
+"""Pixels above which the materials' kernels are sure to be needed."""
 
 
 def render(
@@ -38,7 +41,7 @@ def render(
     env: str | os.PathLike[str] | float | Environment | None = None,
     camera: Camera | None = None,
     size: tuple[int, int] = (800, 600),
-    samples: int = 24,
+    samples: int = 16,
     supersampling: int = 2,
     shadows: bool = True,
     background: str | ArrayLike = "gradient",
@@ -66,7 +69,7 @@ def render_halves(
     left: Reflectance, right: Reflectance, *, divider: float = 1.0, mesh: str | os.PathLike[str] | Mesh = "teapot",
     lights: Iterable[Light | str] | Light | str | None = None,
     env: str | os.PathLike[str] | float | Environment | None = None, camera: Camera | None = None,
-    size: tuple[int, int] = (800, 600), samples: int = 24, supersampling: int = 2, shadows: bool = True,
+    size: tuple[int, int] = (800, 600), samples: int = 16, supersampling: int = 2, shadows: bool = True,
     background: str | ArrayLike = "gradient", seed: int = 0, progress: Report | bool | None = None,
 ) -> Image:  # fmt: skip
     """One picture whose left half is made of `left` and whose right half of `right`; for the rest as `render`.
@@ -92,6 +95,8 @@ def _render(
     samples = _count("samples", samples, 1, 65536)
     per_side = _count("supersampling", supersampling, 1, 16)
     seed = _count("seed", seed, 0, 2**31 - 1)
+    if width * height > WORTH_COMPILING_AHEAD:
+        compile_ahead(reflectances)
     scene = assembled(mesh, lights, env, camera, width / height)
     backdrop = backgrounds.check(background, scene.environment)
     surface = surface_of(scene.mesh)

@@ -35,7 +35,8 @@ class Environment:
     """
 
     def __init__(self, pixels: ArrayLike, scale: float = 1.0, rotation: float = 0.0, name: str = "environment") -> None:
-        pixels = np.asarray(pixels, np.float32)
+        with np.errstate(over="ignore"):  # what does not fit becomes infinite, and is refused below
+            pixels = np.asarray(pixels, np.float32)
         if pixels.ndim != 3 or pixels.shape[2] != 3 or not pixels.size:
             raise SceneError(f"{name}: an environment must have shape (height, width, 3), got {pixels.shape}")
         if not np.isfinite(pixels).all():
@@ -139,7 +140,7 @@ def load(environment: str | os.PathLike[str] | float | Environment, rotation: fl
     if isinstance(environment, Environment):
         return environment
     if isinstance(environment, (int, float)):
-        return Environment(np.full((16, 32, 3), environment, np.float32), name=f"constant {environment:g}")
+        return Environment(np.full((16, 32, 3), float(environment)), name=f"constant {environment:g}")
     if str(environment) in BUILT_IN:
         folder = Path(__file__).parent / "data"
         return Environment(radiance_file.read(folder / f"{environment}.hdr"), 1.0, rotation, str(environment))

@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from .compiled import kernel
+from .compiled import helper, kernel
 
 
-@kernel()
+@helper
 def hashed(x: Any) -> Any:
     """A 32-bit integer hash."""
     x = np.uint32(x)
@@ -23,7 +23,7 @@ def hashed(x: Any) -> Any:
     return np.uint32(x ^ (x >> np.uint32(16)))
 
 
-@kernel()
+@helper
 def _reversed(x: Any) -> Any:
     """The 32 bits in reverse order."""
     x = np.uint32(x)
@@ -34,7 +34,7 @@ def _reversed(x: Any) -> Any:
     return np.uint32(((x & np.uint32(0xAAAAAAAA)) >> np.uint32(1)) | ((x & np.uint32(0x55555555)) << np.uint32(1)))
 
 
-@kernel()
+@helper
 def _scrambled_reverse(x: Any, seed: Any) -> Any:
     """Owen's nested scrambling of a number whose bits are given in reverse order [Burley2020, section 3.2]."""
     x = np.uint32(x + seed)
@@ -44,7 +44,7 @@ def _scrambled_reverse(x: Any, seed: Any) -> Any:
     return np.uint32(x ^ np.uint32(x * np.uint32(0x8D22F6E6)))
 
 
-@kernel()
+@helper
 def _sobol_second(index: Any) -> Any:
     """The second coordinate of Sobol's sequence, 32 bits."""
     result, column = np.uint32(0), np.uint32(0x80000000)
@@ -57,7 +57,7 @@ def _sobol_second(index: Any) -> Any:
     return result
 
 
-@kernel()
+@helper
 def _curve_position(x: Any, y: Any, seed: Any) -> Any:
     """Where pixel (x, y) comes along the curve: its digits in base 4, each level shuffled by a hash of those above."""
     position = np.uint32(0)

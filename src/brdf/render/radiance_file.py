@@ -32,10 +32,13 @@ def read(path: str | os.PathLike[str]) -> NDArray[np.float32]:
     body = np.frombuffer(bytearray(content[start:]), np.uint8)
     if width * height * 4 > max(len(body), 1) * MAXIMUM_EXPANSION:
         raise CorruptFileError(path, f"its header promises {width} x {height} pixels, more than the file can hold.")
-    rgbe = np.empty((height, width, 4), np.uint8)
-    problem = _decode(body, rgbe)
-    if problem:
-        raise CorruptFileError(path, PROBLEMS[problem])
+    if len(body) == width * height * 4 and not _coded(body, width):
+        rgbe = body.reshape(height, width, 4)
+    else:
+        rgbe = np.empty((height, width, 4), np.uint8)
+        problem = _decode(body, rgbe)
+        if problem:
+            raise CorruptFileError(path, PROBLEMS[problem])
     scale = np.ldexp(np.float32(1), rgbe[..., 3].astype(np.int32) - 136)
     return np.where(rgbe[..., 3:] > 0, rgbe[..., :3] * scale[..., None], 0).astype(np.float32)
 
@@ -49,6 +52,12 @@ def _header(path: Any, content: bytes) -> tuple[bytes, int, int, int]:
     if size is None or not int(size[1]) * int(size[2]):
         raise CorruptFileError(path, "its size line is not of the form '-Y height +X width'.")
     return content[:end], int(size[2]), int(size[1]), end + 2 + size.end()
+
+
+def _coded(body: NDArray[np.uint8], width: int) -> bool:
+    """Whether pixels that fill their file exactly are run-length coded all the same."""
+    starts_run = bytes(body[:4]) == bytes((2, 2, width >> 8 & 255, width & 255))
+    return starts_run or bool((body.reshape(-1, 4)[:, :3] == 1).all(1).any())
 
 
 @kernel("i8(u1[::1], u1[:,:,::1])")

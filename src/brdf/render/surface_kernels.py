@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .compiled import kernel
+from .compiled import helper, kernel
 
 ONE = np.float32(1)
 ZERO = np.float32(0)
@@ -40,30 +40,30 @@ def camera_rays(
                 directions[n, c] = (across - frame[2, c]) * norm
 
 
-@kernel()
+@helper
 def _dot(a: Any, b: Any) -> Any:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@kernel()
+@helper
 def _normalised(a: Any) -> Any:
     length = math.sqrt(_dot(a, a))
     scale = ONE / length if length > ZERO else ZERO
     return (a[0] * scale, a[1] * scale, a[2] * scale)
 
 
-@kernel()
+@helper
 def _cross(a: Any, b: Any) -> Any:
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
-@kernel()
+@helper
 def _orthogonal(a: Any, n: Any) -> Any:
     d = _dot(a, n)
     return (a[0] - d * n[0], a[1] - d * n[1], a[2] - d * n[2])
 
 
-@kernel()
+@helper
 def _write_frame(frame: Any, view: Any, ray: Any, normal: Any, tangent: Any) -> None:
     """Local axes as rows of `frame`, and the viewing direction in them; `tangent` need not be orthogonal yet."""
     to_viewer = (-ray[0], -ray[1], -ray[2])

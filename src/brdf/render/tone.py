@@ -15,6 +15,9 @@ Floats = NDArray[np.floating[Any]]
 
 MIDDLE_GREY = 0.18
 
+MOST_STOPS = 100
+"""Whatever is brighter or darker than this has no picture; its factor still fits in float32."""
+
 
 def _clip(x: Floats) -> Floats:
     return x
@@ -48,8 +51,8 @@ def developed(linear: Floats, tone: str = "filmic", exposure: float = 0.0) -> Fl
     """
     if tone not in CURVES:
         raise UnknownNameError("tone curve", tone, CURVES)
-    if not np.isfinite(exposure):
-        raise ParameterError(f"exposure must be a finite number of stops, got {exposure!r}")
+    if not abs(exposure) <= MOST_STOPS:
+        raise ParameterError(f"exposure must lie in [-{MOST_STOPS}, {MOST_STOPS}] stops, got {exposure!r}")
     linear = np.asarray(linear)
     # Beyond 1e4 every curve is white; the bound keeps their squares finite.
     exposed = np.clip(linear * linear.dtype.type(2.0**exposure), 0, 1e4)

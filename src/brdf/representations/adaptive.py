@@ -19,6 +19,7 @@ from ..errors import ReflectanceError
 from ..formula import engine
 from ..geometry.sampling import CosineSampler, MixtureSampler, Sampler
 from ..reflectance import Floats, Reflectance, broadcast_directions
+from ..threads import in_ranges
 
 _BLOCK = 8192
 """Pairs that a thread takes at a time."""
@@ -119,7 +120,7 @@ class Adaptive(Reflectance):
         if self.wavelengths is None:
             raise ReflectanceError(f"{self.name or 'this measurement'} holds RGB only, no spectrum")
         wi, wo, shape = broadcast_directions(wi, wo)
-        engine.check_lengths(wi, wo)
+        engine.check_lengths(wi=wi, wo=wo)
         return self._channels(self._measured, wi, wo, clamp=True).reshape(*shape, -1)
 
     def _channels(self, grid: NDArray[np.float32], wi: Floats, wo: Floats, clamp: bool) -> Floats:
@@ -183,9 +184,7 @@ class AdaptiveSampler:
 
 def _in_threads(run: Callable[[slice], None], count: int) -> None:
     """`run` on slices that together are range(count), on all cores."""
-    from ..formula.kernels import map_threads
-
-    map_threads(lambda start: run(slice(start, start + _BLOCK)), range(0, count, _BLOCK))
+    in_ranges(lambda start, stop: run(slice(start, stop)), count, _BLOCK)
 
 
 def _field(tensors: Mapping[str, NDArray[Any]], name: str) -> NDArray[Any]:

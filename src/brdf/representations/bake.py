@@ -13,6 +13,7 @@ from ..reflectance import Reflectance
 from .table import Layout, Table
 
 Array = NDArray[np.floating[Any]]
+Validity = NDArray[np.bool_]
 
 HORIZON_MARGIN = 0.004
 """How far above the horizon a node below it is evaluated [rad]."""
@@ -42,6 +43,19 @@ def validity(m: Reflectance, wi: Array, wo: Array) -> NDArray[np.bool_]:
     return above & m.valid(wi, wo) if isinstance(m, Table) else above
 
 
+def evaluate(m: Reflectance, layout: Layout, wi: Array, wo: Array, symmetrise: bool) -> tuple[Array, Validity]:
+    """Values (..., 3) of `m` and where they are valid; with `symmetrise` the mean over the valid ones of all pairs that
+    the table does not tell apart (measurements are neither exactly reciprocal nor mirror symmetric)."""
+    if not symmetrise:
+        return m(wi, wo), validity(m, wi, wo)
+    images = layout.basis.images(wi, wo)
+    values = np.stack([m(*pair) for pair in images])
+    valid = np.stack([validity(m, *pair) for pair in images])
+    usable = np.where(valid.any(0), valid, True)
+    mean = np.sum(values * usable[..., None], axis=0) / usable.sum(0)[..., None]
+    return mean, np.asarray(valid.any(0))
+
+
 def diffuse_floor(values: Array, valid: NDArray[np.bool_], quantile: float) -> Array:
     """(3,) the least (or a low quantile) of the valid values (..., 3) of each channel; never negative."""
     kept = values[valid]
@@ -51,17 +65,18 @@ def diffuse_floor(values: Array, valid: NDArray[np.bool_], quantile: float) -> A
     return np.asarray(np.maximum(low, 0).astype(np.float32), np.float64)
 
 
-def bake_points(m: Reflectance, layout: Layout, floor_quantile: float | None = None) -> Table:
+def bake_points(m: Reflectance, layout: Layout, floor_quantile: float | None = None, symmetrise: bool = False) -> Table:
     """A table of `m` evaluated at the nodes.
 
     Nodes below the horizon take the value just above it (interpolation needs them). With `floor_quantile` the encoding
-    subtracts that quantile of the values (0: their minimum). Raises ReflectanceError when `m` is not isotropic.
+    subtracts that quantile of the values (0: their minimum); see `evaluate` for
+    `symmetrise`. Raises ReflectanceError when `m` is not isotropic.
     """
     require_isotropic(m)
     at_nodes = layout.nodes()
     angles = layout.basis.above_horizon(*at_nodes, HORIZON_MARGIN)
     wi, wo = layout.basis.directions(*angles)
-    values = m(wi, wo)
+    values, _ = evaluate(m, layout, wi, wo, symmetrise)
     floor = None
     if floor_quantile is not None:
         valid = validity(m, *layout.basis.directions(*at_nodes))
@@ -71,20 +86,25 @@ def bake_points(m: Reflectance, layout: Layout, floor_quantile: float | None = N
 
 
 def bake_least_squares(
-    m: Reflectance, layout: Layout, floor_quantile: float, samples: int = 120, stiffness: float = 1e-6
+    m: Reflectance,
+    layout: Layout,
+    floor_quantile: float,
+    symmetrise: bool = False,
+    samples: int = 120,
+    stiffness: float = 1e-6,
 ) -> Table:
     """A table whose nodes along the second axis fit `m` best between them.
 
     Every column of nodes (i, :, k) is fitted by itself to `samples` values along it, as the table will interpolate
     them: weights cos_i cos_o (cos_i + cos_o) + 1e-5 on valid samples, 0 elsewhere, and `stiffness` times the squared
-    first differences, which carries the values on below the horizon. Raises ReflectanceError when `m` is not isotropic.
+    first differences, which carries the values on below the horizon. See `evaluate`
+    for `symmetrise`. Raises ReflectanceError when `m` is not isotropic.
     """
     require_isotropic(m)
     first, _, third = layout.nodes()
     along = (np.arange(samples) + 0.5) / samples * layout.basis.extents[1]
     wi, wo = layout.basis.directions(first, along[None, :, None], third)
-    valid = validity(m, wi, wo)
-    values = m(wi, wo)
+    values, valid = evaluate(m, layout, wi, wo, symmetrise)
     floor = diffuse_floor(layout.encoding.scale * values, valid, floor_quantile)
     stored = layout.encoding.encode(values, _cos_d(wi, wo), floor)
 

@@ -20,8 +20,10 @@ from ..geometry.warps import HALF_PI, Angle
 
 Array = NDArray[np.floating[Any]]
 
-_DEGENERATE = 1e-12
-"""Length of a projected direction below which its azimuth means nothing."""
+_DEGENERATE = 2e-7
+"""Length of a projected direction below which its azimuth is rounding noise (of float32 with fused products)."""
+
+_MIRROR = np.array([1.0, -1.0, 1.0])
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,10 @@ class Basis:
 
     def above_horizon(self, first: Array, second: Array, third: Array, margin: float) -> tuple[Array, Array, Array]:
         """The nearest angles whose directions lie above the horizon by at least about `margin` [rad]."""
+        raise NotImplementedError
+
+    def images(self, wi: Array, wo: Array) -> list[tuple[Array, Array]]:
+        """The pairs that this basis does not tell from (wi, wo) by the symmetries it assumes, itself first."""
         raise NotImplementedError
 
     @property
@@ -113,6 +119,11 @@ class HalfBasis(Basis):
         last = np.arctan2(np.cos(first), np.sin(first) * np.abs(np.cos(third)))
         return first, np.minimum(second, last - margin), third
 
+    def images(self, wi: Array, wo: Array) -> list[tuple[Array, Array]]:
+        mirrored = [(wi * _MIRROR, wo * _MIRROR)] if self.fold == "quarter-turn" else []
+        unswapped = [(wi, wo), *mirrored]
+        return [*unswapped, *((b, a) for a, b in unswapped)]
+
 
 @dataclass(frozen=True)
 class NormalBasis(Basis):
@@ -140,6 +151,9 @@ class NormalBasis(Basis):
 
     def above_horizon(self, first: Array, second: Array, third: Array, margin: float) -> tuple[Array, Array, Array]:
         return np.minimum(first, HALF_PI - margin), np.minimum(second, HALF_PI - margin), third
+
+    def images(self, wi: Array, wo: Array) -> list[tuple[Array, Array]]:
+        return [(wi, wo), (wi * _MIRROR, wo * _MIRROR)]
 
 
 def cos_difference(wi: Vec, wo: Vec) -> Scalar:

@@ -56,7 +56,8 @@ class Scattered(Reflectance):
 
     def __init__(self, spectra: ArrayLike, wavelengths: ArrayLike) -> None:
         """`spectra` (nh, nd, np, W) in 1/sr at the nodes, `wavelengths` (W,) in nm. Raises ValueError."""
-        self.spectra: NDArray[np.float32] = np.ascontiguousarray(spectra, np.float32)
+        with np.errstate(over="ignore"):  # what does not fit becomes infinite, and is refused below
+            self.spectra: NDArray[np.float32] = np.ascontiguousarray(spectra, np.float32)
         self.wavelengths: NDArray[np.float64] = np.asarray(wavelengths, np.float64)
         weights = rgb_weights(self.wavelengths)
         if self.spectra.ndim != 4 or min(self.spectra.shape) < 1 or self.spectra.shape[-1] != len(weights):
@@ -110,7 +111,7 @@ class Scattered(Reflectance):
     def spectrum(self, wi: ArrayLike, wo: ArrayLike) -> Floats:
         """f [1/sr] per wavelength: (..., 3), (..., 3) -> (..., W); zero below the horizon. Raises DirectionError."""
         wi, wo, shape = broadcast_directions(wi, wo)
-        engine.check_lengths(wi, wo)
+        engine.check_lengths(wi=wi, wo=wo)
         channels = texture3d(self.spectra, *_coordinates(Vec(*wi.T), Vec(*wo.T), self.grid))
         visible = ((wi[:, 2] > 0) & (wo[:, 2] > 0)).astype(wi.dtype)
         values = np.stack(list(channels), axis=-1).astype(wi.dtype, copy=False) * visible[:, None]

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any
 
 from ..errors import UnknownNameError
 from ..geometry.warps import FarPower, square_root, uniform
@@ -54,14 +53,17 @@ class SliceStack:
         """`m` as a slice stack of 16, 64 or 256 KB.
 
         `method` is "least-squares" (the slices fit what lies between them) or "points" (evaluation at the nodes; some
-        3 dB less). Raises ReflectanceError when `m` is anisotropic, UnknownNameError for an unknown budget or method.
+        3 dB less). Of measured values the floor is a low quantile, and directions that the folds join are averaged.
+        Raises ReflectanceError when `m` is anisotropic, UnknownNameError for an unknown budget or method.
         """
         if method not in METHODS:
             raise UnknownNameError("bake method", method, METHODS)
-        return METHODS[method](m, SliceStack.layout(budget), floor_quantile=floor_quantile(m))
+        measured = is_measured(m)
+        floor_quantile = MEASURED_FLOOR if measured else 0.0
+        return METHODS[method](m, SliceStack.layout(budget), floor_quantile, symmetrise=measured)
 
 
-def floor_quantile(m: Any) -> float:
-    """The quantile of the values that counts as the diffuse floor: the minimum, unless the values were measured."""
-    is_measured = isinstance(m, Table) and m.has_holes
-    return MEASURED_FLOOR if is_measured or not m.has_formula else 0.0
+def is_measured(m: Reflectance) -> bool:
+    """Whether the values carry the noise and the asymmetry of a measurement: tables with holes, and what needs a search
+    to be evaluated."""
+    return not m.has_formula or (isinstance(m, Table) and m.has_holes)

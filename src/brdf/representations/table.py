@@ -105,6 +105,9 @@ class Table(Reflectance):
         expected = {*storage(layout.storage).constants, *(("floor",) if "floor" in self._values else ())}
         if set(self._values) != expected or any(v.shape != (3,) for v in self._values.values()):
             raise ValueError(f"constants must be (3,) arrays {sorted(expected)}, got {sorted(self._values)}")
+        numbers: list[NDArray[Any]] = [self._textures["grid"], *self._values.values()]
+        if not all(np.isfinite(array).all() for array in numbers):
+            raise ValueError("the table holds NaN or infinity")
         if measured is not None and (measured.shape != layout.shape or measured.dtype != np.bool_):
             raise ValueError(f"`measured` must be booleans of shape {layout.shape}, got {measured.shape}")
 

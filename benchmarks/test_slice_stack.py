@@ -1,0 +1,27 @@
+"""How close 16 KB come: the slice stack against the published fit of each of the 100 materials."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import brdf
+
+
+@pytest.mark.benchmark(group="compact")
+def test_sixteen_kilobytes(benchmark):
+    sources = [brdf.materials.get(f"{name}@bagher_sgd") for name in brdf.materials.names()]
+    stacks = benchmark.pedantic(lambda: [brdf.SliceStack.bake(m) for m in sources], rounds=1)
+    psnr = {m.name: brdf.metrics.psnr(m, k, size=96) for m, k in zip(sources, stacks, strict=True)}
+    values = np.array(list(psnr.values()))
+    worst = sorted(psnr, key=lambda name: psnr[name])[:5]
+    benchmark.extra_info.update(
+        {
+            "mean PSNR": round(float(values.mean()), 2),
+            "mean PSNR, each capped at 100": round(float(values.clip(max=100).mean()), 2),
+            "median": round(float(np.median(values)), 2),
+            "least": round(float(values.min()), 2),
+            "worst": {name: round(psnr[name], 1) for name in worst},
+        }
+    )
+    print(benchmark.extra_info)
