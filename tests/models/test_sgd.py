@@ -9,6 +9,7 @@ import pytest
 from brdf import materials
 from brdf.formula.bound import Bound, bound_value
 from brdf.formula.vec import Vec
+from brdf.materials import catalogue
 from brdf.models import SGD
 from lobes import direction, half_vectors
 
@@ -69,7 +70,7 @@ def test_against_the_equations(name: str) -> None:
 
 def test_published_distributions_are_normalised() -> None:
     """K = 1 / (alpha Gamma(1 - p, alpha)) in all rows: pins down x = alpha + tan^2 / alpha and the 1/pi in D."""
-    for name in materials.names():
+    for name in catalogue.names():
         m = materials.get(name, "bagher_sgd")
         for alpha, p, K in zip(m.alpha, m.p, m.K, strict=True):
             assert float(alpha * mpmath.gammainc(1 - p, alpha)) * K == pytest.approx(1, abs=1e-5), name

@@ -9,7 +9,19 @@ import pytest
 
 from brdf import models
 from brdf.errors import UnknownNameError
-from brdf.models import GGX, SGD, BlinnPhong, Lambertian, Microfacet, ModifiedPhong, OrenNayar
+from brdf.models import (
+    GGX,
+    SGD,
+    BlinnPhong,
+    CharlieSheen,
+    Disney,
+    GltfMetallicRoughness,
+    Lambertian,
+    Microfacet,
+    ModifiedPhong,
+    OpenPBR,
+    OrenNayar,
+)
 from brdf.reflectance import Reflectance
 from lobes import direction, random_pairs
 
@@ -168,6 +180,34 @@ CASES = [
         Z,
         0.24370168972546,
         "0.04 pi tau^2 (Ei(1) - 0.5772...) / e: g = 1, no shadowing at the normal",
+    ),
+    Case(
+        Disney(),
+        Z,
+        Z,
+        0.66 / np.pi,
+        "0.5 / pi + 0.04 / (4 pi alpha^2), alpha = 1/4; retro-reflection is 0 at the normal",
+    ),
+    Case(
+        GltfMetallicRoughness(metallic=0.0),
+        Z,
+        Z,
+        0.97 / np.pi,
+        "0.96 / pi + 0.04 / (4 pi alpha^2), alpha = 1",
+    ),
+    Case(
+        OpenPBR(base_weight=0.0),
+        Z,
+        Z,
+        0.04 / (4 * np.pi * 0.09**2),
+        "((1.5 - 1) / 2.5)^2 / (4 pi alpha^2), alpha = 0.3^2",
+    ),
+    Case(
+        CharlieSheen(color=1.0, roughness=0.5),
+        direction(60.0),
+        direction(60.0),
+        0.16534202023488,
+        "D = 4 sin^2 60 / (2 pi); L(1/2) = 22.4916 / (1 + 3.70349 / 2^0.190675) - 0.90084125 - 4.4553225",
     ),
 ]
 

@@ -44,7 +44,7 @@ class SpatiallyVarying(Reflectance):
     def __init__(self, base: Reflectance, **maps: ArrayLike) -> None:
         if not maps:
             raise ParameterError("a spatially varying reflectance needs a map for at least one parameter")
-        if base.varies or not base.has_formula or _has_delta(base):
+        if base.varies or not base.has_formula or base.has_delta:
             raise ReflectanceError(f"{base.name} cannot vary: it needs a formula, no delta events, and to be uniform")
         self._children = {"base": base}
         self.maps: dict[str, NDArray[np.float32]] = {name: _validated(base, name, m) for name, m in maps.items()}
@@ -174,9 +174,3 @@ def _validated(base: Reflectance, name: str, image: ArrayLike) -> NDArray[np.flo
     array = np.ascontiguousarray(np.broadcast_to(array, (*array.shape[:2], declared.size)))
     array.flags.writeable = False
     return array
-
-
-def _has_delta(m: Reflectance) -> bool:
-    if m.children:
-        return any(map(_has_delta, m.children.values()))
-    return type(m)._delta_arrays is not Reflectance._delta_arrays

@@ -7,6 +7,7 @@ import pkgutil
 from typing import Any
 
 from ..errors import UnknownNameError
+from .energy_compensated import EnergyCompensated
 from .model import REGISTRY, Model
 
 for _module in pkgutil.iter_modules(__path__):
@@ -32,4 +33,4 @@ def __getattr__(name: str) -> Any:
     raise AttributeError(f"no model {name!r}; known: {', '.join(names())}")
 
 
-__all__ = ["Model", "get", "names"]
+__all__ = ["EnergyCompensated", "Model", "get", "names"]

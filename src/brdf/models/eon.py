@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from ..formula import Scalar, Vec, acos, dot, maximum, pi, sqrt, where
@@ -34,28 +35,36 @@ class EON(Model):
     directional_albedo: Any = choice("how E is computed", "exact", _DIRECTIONAL_ALBEDOS)
 
     def f(self, wi: Vec, wo: Vec) -> Vec:
-        r = self.roughness
-        s = dot(wi, wo) - wi.z * wo.z
-        s_over_t = where(s > 0.0, s / maximum(wi.z, wo.z), s)
-        A = 1.0 / (1.0 + _C1 * r)
-        once = A * (1.0 + r * s_over_t) / pi
-
-        # 1 - E = A r (C1 - G / pi), so that (1 - E)(1 - E) / (1 - E_mean) needs no division by what vanishes with r
-        lost_i, lost_o = _C1 - self.G_over_pi(wi), _C1 - self.G_over_pi(wo)
-        again = A * r * lost_i * lost_o / ((_C1 - _C2) * pi)
-        E_mean = A * (1.0 + _C2 * r)
-        rho_ms = self.rho * self.rho * E_mean / (1.0 - self.rho * (1.0 - E_mean))
-        return self.rho * once + rho_ms * again
-
-    def G_over_pi(self, w: Vec) -> Scalar:
-        if self.directional_albedo == "approximate":
-            x = 1.0 - w.z
-            return x * (_SERIES[0] + x * (_SERIES[1] + x * (_SERIES[2] + x * _SERIES[3])))
-        sine2 = w.x * w.x + w.y * w.y
-        sine = sqrt(sine2)
-        # tan (1 - sin^3) with the common factor cos taken out: tan grows beyond bounds at the horizon
-        grazing = sine * w.z * (1.0 + sine + sine2) / (1.0 + sine)
-        return (sine * (acos(w.z) - sine * w.z) + 2.0 / 3.0 * (grazing - sine)) / pi
+        approximate = self.directional_albedo == "approximate"
+        return eon(wi, wo, self.rho, self.roughness, fitted_G_over_pi if approximate else exact_G_over_pi)
 
     def _make_sampler(self) -> Sampler:
         return CosineSampler()
+
+
+def eon(wi: Vec, wo: Vec, rho: Vec, r: Scalar, G_over_pi: Callable[[Vec], Scalar]) -> Vec:
+    """The formula with every number an argument [1/sr]: for models with such a diffuse part."""
+    s = dot(wi, wo) - wi.z * wo.z
+    s_over_t = where(s > 0.0, s / maximum(wi.z, wo.z), s)
+    A = 1.0 / (1.0 + _C1 * r)
+    once = A * (1.0 + r * s_over_t) / pi
+
+    # 1 - E = A r (C1 - G / pi), so that (1 - E)(1 - E) / (1 - E_mean) needs no division by what vanishes with r
+    lost_i, lost_o = _C1 - G_over_pi(wi), _C1 - G_over_pi(wo)
+    again = A * r * lost_i * lost_o / ((_C1 - _C2) * pi)
+    E_mean = A * (1.0 + _C2 * r)
+    rho_ms = rho * rho * E_mean / (1.0 - rho * (1.0 - E_mean))
+    return rho * once + rho_ms * again
+
+
+def fitted_G_over_pi(w: Vec) -> Scalar:
+    x = 1.0 - w.z
+    return x * (_SERIES[0] + x * (_SERIES[1] + x * (_SERIES[2] + x * _SERIES[3])))
+
+
+def exact_G_over_pi(w: Vec) -> Scalar:
+    sine2 = w.x * w.x + w.y * w.y
+    sine = sqrt(sine2)
+    # tan (1 - sin^3) with the common factor cos taken out: tan grows beyond bounds at the horizon
+    grazing = sine * w.z * (1.0 + sine + sine2) / (1.0 + sine)
+    return (sine * (acos(w.z) - sine * w.z) + 2.0 / 3.0 * (grazing - sine)) / pi

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..errors import ParameterError
-from ..formula import Vec, dot, normalize
+from ..formula import Scalar, Vec, dot, normalize
 from ..geometry.sampling import Sampler
 from ..parameters import choice
 from .model import Model
@@ -43,10 +43,14 @@ class Microfacet(Model):
 
     def f(self, wi: Vec, wo: Vec) -> Vec:
         h = normalize(wi + wo)
+        F = self.fresnel.F(dot(wi, h))
+        return F * self.white(h, wi, wo)
+
+    def white(self, h: Vec, wi: Vec, wo: Vec) -> Scalar:
+        """The lobe of facets that reflect everything, F = 1 [1/sr]."""
         D = self.ndf.D(h)
         visibility = self.masking.visibility(self.ndf, wi, wo)  # G / (cos_i cos_o)
-        F = self.fresnel.F(dot(wi, h))
-        return F * (D * visibility / 4.0)
+        return D * visibility / 4.0
 
     def _make_sampler(self) -> Sampler:
         return self._parts["ndf"].sampler() or super()._make_sampler()

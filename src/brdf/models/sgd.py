@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from ..formula import Scalar, Vec, atan2, dot, exp, log, maximum, minimum, pi, saturate, sqrt, where
 from ..parameters import RGB, albedo, rgb
 from .model import Model
@@ -20,6 +22,10 @@ class SGD(Model):
     given by its logarithm: published values reach 1e109, and c (theta - theta0)^k is formed from logarithms. F0 and F1
     are coefficients, not reflectances. Reference: Bagher2012.
     """
+
+    breaks: ClassVar = {
+        "energy": "ks and masking are fitted and unbounded: six published rows gain at grazing angles [Bagher2012]"
+    }
 
     kd: RGB = albedo("diffuse albedo", default=0.1)
     ks: RGB = rgb("scale of the specular part", default=0.1, low=0.0)
