@@ -43,3 +43,23 @@ def best_time(function: Callable[[], Any], repeats: int = 5) -> float:
 
 def million_per_second(pairs: int, seconds: float) -> float:
     return round(pairs / seconds / 1e6, 2)
+
+
+def mitsuba_time(plugin: dict[str, Any], wi: np.ndarray, wo: np.ndarray) -> float | None:
+    """Seconds of the plugin's evaluation, NumPy in and out, or None where Mitsuba or its compiler is missing."""
+    try:
+        import drjit as dr
+        import mitsuba as mi
+    except ImportError:
+        return None
+    if "llvm_ad_rgb" not in mi.variants():
+        return None
+    mi.set_variant("llvm_ad_rgb")
+    bsdf = mi.load_dict(plugin)
+
+    def run() -> None:
+        interaction = dr.zeros(mi.SurfaceInteraction3f, len(wi))
+        interaction.wi = mi.Vector3f(wi.T)
+        np.array(bsdf.eval(mi.BSDFContext(), interaction, mi.Vector3f(wo.T)))
+
+    return best_time(run, 3)
