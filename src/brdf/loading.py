@@ -7,9 +7,10 @@ import re
 from pathlib import Path
 from typing import Any
 
-from . import io, materials, models
+from . import io, materials, models, profiles
 from .combinators import add, scaled
 from .errors import FileError, ParameterError, UnknownNameError
+from .profiles import Profile
 from .reflectance import Reflectance
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
@@ -37,6 +38,22 @@ def load(spec: str | os.PathLike[str]) -> Reflectance:
     for lobe in others:
         first = add(first, lobe)
     return first.named(spec.strip()) if others else first
+
+
+def names_profile(spec: str) -> bool:
+    """Whether the description is one of a profile of subsurface scattering."""
+    return spec.partition(":")[0].strip().lower() in profiles.names()
+
+
+def load_profile(spec: str) -> Profile:
+    """A profile of subsurface scattering, `burley:A=.8,length=2` or `dipole`.
+
+    Raises UnknownNameError, ParameterError.
+    """
+    name, _, parameters = spec.partition(":")
+    made: Profile = profiles.get(name.strip())(**_parameters(name.strip(), parameters))
+    made.name = spec.strip()
+    return made
 
 
 def _is_name(spec: str) -> bool:
@@ -79,6 +96,15 @@ def _atom(text: str) -> Reflectance:
 
 
 def _model(name: str, parameters: str) -> Reflectance:
+    given = _parameters(name, parameters)
+    try:
+        made: Reflectance = models.get(name)(**given)
+    except ParameterError as error:
+        raise ParameterError(f"{name}: {error}") from None
+    return made.named(f"{made.name}:{parameters.strip()}" if given else made.name)
+
+
+def _parameters(name: str, parameters: str) -> dict[str, Any]:
     given: dict[str, Any] = {}
     for item in parameters.split(",") if parameters.strip() else []:
         key, equals, value = (part.strip() for part in item.partition("="))
@@ -89,11 +115,7 @@ def _model(name: str, parameters: str) -> Reflectance:
         if key in given:
             raise ParameterError(f"{name}: {key} is given twice")
         given[key] = _value(value)
-    try:
-        made: Reflectance = models.get(name)(**given)
-    except ParameterError as error:
-        raise ParameterError(f"{name}: {error}") from None
-    return made.named(f"{made.name}:{parameters.strip()}" if given else made.name)
+    return given
 
 
 def _value(text: str) -> Any:

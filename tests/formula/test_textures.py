@@ -68,3 +68,10 @@ def test_dependent_lookups_in_kernels():
     np.testing.assert_allclose(kernels.evaluate(m, wi, wo, True), expected, rtol=1e-12)
     np.testing.assert_allclose(m(wi[:100], wo[:100]), expected[:100], rtol=1e-12)
     assert relative_error(m(wi.astype("f4"), wo.astype("f4")), expected).max() < 2e-5
+
+
+@pytest.mark.parametrize("place", [np.nan, -np.inf, np.inf, -1e30, 1e30])
+def test_no_place_whatever_reads_beyond_the_texture(place):
+    data = np.arange(12.0).reshape(4, 3)
+    value = texture1d(data, np.array([place]))
+    np.testing.assert_array_equal(value[0], [9.0 if place > 0 else 0.0])

@@ -22,7 +22,9 @@ def lookup(data: Any, coordinates: tuple[Any, ...], backend: Any) -> Vec:
     rows = data.reshape(-1, channels)
     lower, upper, fraction = [], [], []
     for u, size in zip(coordinates, sizes, strict=True):
-        position = backend.minimum(backend.maximum(u * size - 0.5, 0.0), size - 1.0)
+        position = u * size - 0.5
+        # not a number, which lanes below the horizon may hold, counts as the edge: it must not become an index
+        position = backend.minimum(backend.where(position > 0.0, position, 0.0 * size), size - 1.0)
         below = backend.minimum(backend.floor(position), max(size - 2.0, 0.0))
         lower.append(backend.integer(below))
         upper.append(backend.integer(backend.minimum(below + 1.0, size - 1.0)))

@@ -117,6 +117,13 @@ def declared_breaches(reflectance: Reflectance) -> Mapping[str, str]:
 
 
 def rests_on_data(reflectance: Reflectance) -> bool:
-    """Whether values come from arrays (a measurement or a table) and not from a formula alone."""
+    """Whether values come from arrays (a measurement or a table) and not from a formula alone.
+
+    Textures that a formula derives from its own parameters are part of the formula.
+    """
     parts = reflectance.children.values()
-    return bool(reflectance.textures) or not reflectance.has_formula or any(map(rests_on_data, parts))
+    return (
+        bool(getattr(reflectance, "given_textures", reflectance.textures))
+        or not reflectance.has_formula
+        or any(map(rests_on_data, parts))
+    )

@@ -85,7 +85,7 @@ class Disney(Model):
     def _make_sampler(self) -> Sampler:
         alpha_x, alpha_y = (float(alpha) for alpha in self.widths())
         gloss = 0.1 + (0.001 - 0.1) * self.clearcoat_gloss
-        samplers = [CosineSampler(), GGXSampler(alpha_x, alpha_y), GGXSampler(gloss, gloss)]
+        samplers: list[Sampler] = [CosineSampler(), GGXSampler(alpha_x, alpha_y), GGXSampler(gloss, gloss)]
         return MixtureSampler(samplers, [0.9 - 0.6 * self.metallic, 0.4, 0.2 * self.clearcoat])
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,12 @@ class EnergyCompensated(Reflectance):
     means over the hemisphere. Reciprocal; white facets reflect everything. For a masking term that conserves energy:
     E beyond 1 counts as 1. References: Kulla2017.
     """
+
+    base: Any
+    white_albedo: Any
+    mean_albedo: Any
+    given_textures: ClassVar[dict[str, NDArray[Any]]] = {}
+    """None: its textures follow from the base."""
 
     def __init__(self, base: Microfacet, albedo_table: NDArray[np.float32] | None = None) -> None:
         if not isinstance(base, Microfacet):

@@ -121,7 +121,11 @@ class OpenPBR(Model):
 
     def _make_sampler(self) -> Sampler:
         alpha_x, alpha_y = (float(alpha) for alpha in self.specular_widths())
-        samplers = [CosineSampler(), GGXSampler(alpha_x, alpha_y), GGXSampler(*map(float, self.coat_widths()))]
+        samplers: list[Sampler] = [
+            CosineSampler(),
+            GGXSampler(alpha_x, alpha_y),
+            GGXSampler(*map(float, self.coat_widths())),
+        ]
         return MixtureSampler(samplers, [1 - 0.8 * self.base_metalness, 0.5, 0.3 * self.coat_weight])
 
 

@@ -54,4 +54,4 @@ class Dipole(Profile):
     def reach(self) -> Floats:
         sigma_t = self.sigma_s + self.sigma_a
         # without absorption the profile falls as 1 / r^3 from the depth of the image on
-        return np.minimum(1 / np.sqrt(np.maximum(3 * self.sigma_a * sigma_t, 1e-300)), 10 / sigma_t)
+        return np.asarray(np.minimum(1 / np.sqrt(np.maximum(3 * self.sigma_a * sigma_t, 1e-300)), 10 / sigma_t))

@@ -215,7 +215,8 @@ def _lookup(texture: TextureRef, coordinates: list[str], channels: list[str]) ->
     for axis, u in zip(axes, coordinates, strict=True):
         step = " * ".join([f"size{later}" for later in axes[axis + 1 :]] + [str(texture.channels)])
         lines += [
-            f"    x{axis} = min(max({u} * real(size{axis}) - real(0.5), ZERO), real(size{axis} - 1))",
+            f"    x{axis} = {u} * real(size{axis}) - real(0.5)",
+            f"    x{axis} = minimum(where(x{axis} > ZERO, x{axis}, ZERO), real(size{axis} - 1))",
             f"    i{axis} = min(int(x{axis}), max(size{axis} - 2, 0))",
             f"    f{axis} = x{axis} - real(i{axis})",
             f"    step{axis} = {step} if size{axis} > 1 else 0",

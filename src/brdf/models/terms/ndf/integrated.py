@@ -102,7 +102,7 @@ class StudentT(Stretched, name="student-t"):
 
 
 class ABC(Integrated, name="abc"):
-    """D = c / (1 + B (1 - cos theta_h))^C. References: Church1989, Low2012."""
+    """D = c / (1 + B (1 - cos theta_h))^C. Reference: Low2012."""
 
     B: Scalar = number("inverse width of the peak", default=100.0, low=1.0, high=1e7)
     C: Scalar = number("exponent of the tail", default=1.5, low=0.0, high=10.0)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....errors import ParameterError
-from ....formula import Scalar, Vec, atan2, floor, pi, sqrt, texture1d, texture2d
+from ....formula import Scalar, Vec, atan2, floor, maximum, pi, sqrt, texture1d, texture2d
 from ....formula.backends import backend_of
 from ....formula.textures import lookup
 from ....geometry.quadrature import gauss_legendre
@@ -115,7 +115,7 @@ class PaintedMap(Distribution, name="map"):
     def projected_area(self, w: Vec) -> Scalar:
         turn = atan2(w.y, w.x) / (2.0 * pi)
         phi = turn - floor(turn)
-        cosine = node_coordinate(sqrt(w.z), COSINES)
+        cosine = node_coordinate(sqrt(maximum(w.z, 0.0)), COSINES)
         return w.z + texture2d(self.facets_away, cosine, node_coordinate(phi, AZIMUTHS + 1))[0]
 
     def slope_width(self) -> Scalar:

@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ....formula import Scalar, Vec, dot, sqrt, texture1d
+from ....formula import Scalar, Vec, dot, maximum, sqrt, texture1d
 from ....geometry.quadrature import gauss_legendre
 from .distribution import Distribution
 
@@ -73,7 +73,7 @@ class Integrated(Distribution):
 def area_from(facets_away: Any, S2: Scalar, C: Scalar) -> Scalar:
     """A from the table, S squared and C."""
     S = sqrt(S2 + 1e-24)
-    root_S, root_C = sqrt(sqrt(S)), sqrt(sqrt(C))
+    root_S, root_C = sqrt(sqrt(S)), sqrt(sqrt(maximum(C, 0.0)))
     return C + S * texture1d(facets_away, node_coordinate(root_S / (root_S + root_C), NODES))[0]
 
 
