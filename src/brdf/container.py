@@ -27,13 +27,16 @@ SCHEMA = 1
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A temporary path beside `path`, renamed to it when the block ends well, removed when it does not.
 
+    Of a symbolic link, what it points to is replaced.
+
     Raises FileError when the folder cannot be written.
     """
     target = Path(path)
     try:
+        place = Path(os.path.realpath(target))
         if target.is_dir():
             raise FileError(target, "is a folder; give a file name.")
-        handle, name = tempfile.mkstemp(prefix=".brdf-", suffix=target.suffix, dir=target.parent)
+        handle, name = tempfile.mkstemp(prefix=".brdf-", suffix=target.suffix, dir=place.parent)
     except OSError as error:
         raise FileError(target, f"cannot be written ({error.strerror}); choose another place with -o.") from None
     os.close(handle)
@@ -43,7 +46,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         umask = os.umask(0)
         os.umask(umask)
         temporary.chmod(0o666 & ~umask)
-        temporary.replace(target)
+        temporary.replace(place)
     finally:
         temporary.unlink(missing_ok=True)
 

@@ -156,6 +156,14 @@ def test_a_process_compiles_ahead(tmp_path, monkeypatch):
         kernels.cache_folder.cache_clear()
 
 
+def test_an_index_without_machine_code_is_not_compiled(tmp_path):
+    (tmp_path / "__pycache__").mkdir()
+    (tmp_path / "__pycache__" / "m.kernel-1.py311.nbi").touch()
+    assert not kernels._is_compiled(tmp_path / "m.py")
+    (tmp_path / "__pycache__" / "m.kernel-1.py311.1.nbc").touch()
+    assert kernels._is_compiled(tmp_path / "m.py")
+
+
 def test_an_unwritable_cache_is_survived(tmp_path, monkeypatch):
     blocked = tmp_path / "file"
     blocked.write_text("")

@@ -59,9 +59,11 @@ def kernel_for(reflectance: Any, real: str) -> Callable[..., int]:
     key = (real, reflectance.structure)
     if key not in _kernels:
         module = _module_of(reflectance, real)
-        compiler = _compilers.pop(module, None)
+        compiler = _compilers.get(module)
         while compiler is not None and compiler.poll() is None and not _is_compiled(module):
             time.sleep(0.02)
+        if compiler is not None and compiler.poll() is not None:
+            del _compilers[module]
         _kernels[key] = _loaded(module)
     return _kernels[key]
 
@@ -85,7 +87,8 @@ def compile_ahead(reflectances: Sequence[Any], real: str = "float32") -> None:
 
 
 def _is_compiled(module: Path) -> bool:
-    return any(module.parent.glob(f"__pycache__/{module.stem}.*.nbi"))
+    # The machine code is what numba writes last; the index beside it (.nbi) comes before.
+    return any(module.parent.glob(f"__pycache__/{module.stem}.*.nbc"))
 
 
 def _module_of(reflectance: Any, real: str) -> Path:
