@@ -11,7 +11,7 @@ from brdf import Reflectance
 from brdf.errors import ParameterError, UnknownNameError
 from brdf.formula import Vec, texture1d
 from brdf.models import GGX, SGD, Lambertian, Microfacet, OrenNayar
-from brdf.models.terms.ndf import GGX as GGXDistribution
+from brdf.models.terms import ndf
 from brdf.parameters import Parameter, Parameterised, Texture, choice, number, rgb, texture, width
 
 
@@ -164,7 +164,7 @@ def test_repr_shows_choices_and_values() -> None:
 def test_declarations_are_documented() -> None:
     assert isinstance(Lobe.order, Parameter)
     assert (Lobe.order.unit, Lobe.order.low, Lobe.order.high, Lobe.order.name) == ("1/m", -1.0, 5.0, "order")
-    assert GGXDistribution.alpha_x.follows == "alpha"
+    assert ndf.GGX.alpha_x.follows == "alpha"
 
 
 def test_a_parameter_named_like_a_method_can_be_called() -> None:

@@ -22,7 +22,7 @@ class UnknownNameError(BrdfError, LookupError):
         near = difflib.get_close_matches(name, known, n=3, cutoff=0.6)
         if near:
             advice = "did you mean " + " or ".join(repr(n) for n in near) + "?"
-        elif len(known) <= 12:
+        elif len(known) <= 20:
             advice = "known: " + ", ".join(known) + "."
         else:
             advice = f"{len(known)} are known{'; ' + hint if hint else ''}."

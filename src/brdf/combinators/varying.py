@@ -13,9 +13,10 @@ from ..formula import texture2d
 from ..formula.backends import backend_of
 from ..formula.textures import lookup
 from ..formula.vec import Vec
+from ..geometry.arguments import MIDDLE
 from ..geometry.sampling import CosineSampler, MixtureSampler, Sampler
 from ..parameters import Parameter, Parameterised
-from ..reflectance import MIDDLE, Reflectance
+from ..reflectance import Reflectance
 from .sums import Scaled, Sum
 
 PREFIX = "map_"

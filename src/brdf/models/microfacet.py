@@ -29,7 +29,7 @@ class Microfacet(Model):
     masking: Any = choice("masking-shadowing", "smith", MASKINGS)
     fresnel: Any = choice("Fresnel reflectance", "schlick", FRESNEL_TERMS)
 
-    def __init__(self, **given: Any) -> None:
+    def __init__(self, /, **given: Any) -> None:
         if "visibility" in given:
             if "masking" in given:
                 raise ParameterError("visibility and masking are two names of one choice; give one of them")

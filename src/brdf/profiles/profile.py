@@ -24,7 +24,7 @@ class Profile(Parameterised, ABC):
         super().__init_subclass__(**kwargs)
         REGISTRY[cls.__name__.lower()] = cls
 
-    def __init__(self, **values: Any) -> None:
+    def __init__(self, /, **values: Any) -> None:
         super().__init__(**values)
         self.name = type(self).__name__
 

@@ -17,8 +17,9 @@ from numpy.typing import ArrayLike, NDArray
 from ..color import rgb_weights
 from ..errors import ReflectanceError
 from ..formula import engine
+from ..geometry.arguments import broadcast_directions
 from ..geometry.sampling import CosineSampler, MixtureSampler, Sampler
-from ..reflectance import Floats, Reflectance, broadcast_directions
+from ..reflectance import Floats, Reflectance
 from ..threads import in_ranges
 
 _BLOCK = 8192

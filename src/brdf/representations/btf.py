@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError
+from ..geometry.arguments import as_directions
 from ..geometry.sampling import CosineSampler, MixtureSampler, Sampler, TabulatedSampler
-from ..reflectance import Floats, Reflectance, as_directions
+from ..reflectance import Floats, Reflectance
 
 COSINE_SHARE = 0.25
 """Share of draws from a cosine lobe, so that what only some places reflect is drawn everywhere."""

@@ -22,7 +22,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..color import rgb_weights
 from ..formula import Scalar, Vec, abs, atan2, engine, length, maximum, minimum, sqrt, texture3d
-from ..reflectance import Floats, Reflectance, broadcast_directions
+from ..geometry.arguments import broadcast_directions
+from ..reflectance import Floats, Reflectance
 
 GRID = (64, 46, 16)
 """Nodes over sqrt(theta_h), theta_d (2 degrees apart) and |cos phi_d|."""

@@ -19,8 +19,9 @@ from ..errors import BrdfError, ReflectanceError
 from ..formula import Scalar, Vec, texture3d
 from ..formula.backends import backend_of
 from ..formula.textures import lookup
+from ..geometry.arguments import broadcast_directions
 from ..geometry.warps import Angle, Warp, warp_from
-from ..reflectance import Reflectance, broadcast_directions
+from ..reflectance import Reflectance
 from .bases import Basis, basis_from, cos_difference
 from .encoding import Encoding, encoding_from
 from .storage import storage
