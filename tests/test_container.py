@@ -23,11 +23,16 @@ def test_a_link_stays_and_what_it_points_to_is_replaced(tmp_path: Path) -> None:
     assert os.listdir(file.parent) == ["file.txt"]
 
 
+def interrupted(file: Path) -> None:
+    with replacing(file) as temporary:
+        temporary.write_text("half")
+        raise KeyboardInterrupt
+
+
 def test_a_block_that_fails_leaves_what_was_there(tmp_path: Path) -> None:
     file = tmp_path / "file.txt"
     file.write_text("old")
-    with pytest.raises(KeyboardInterrupt), replacing(file) as temporary:
-        temporary.write_text("half")
-        raise KeyboardInterrupt
+    with pytest.raises(KeyboardInterrupt):
+        interrupted(file)
     assert file.read_text() == "old"
     assert os.listdir(tmp_path) == ["file.txt"]

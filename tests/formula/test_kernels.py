@@ -6,12 +6,13 @@ import os
 import subprocess
 import sys
 
+import numba
 import numpy as np
 import pytest
 
 import brdf
 from brdf.errors import DirectionError
-from brdf.formula import engine, kernels
+from brdf.formula import engine, kernels, machine_code
 from helpers import random_directions, relative_error
 
 COUNT = 30_000
@@ -162,6 +163,18 @@ def test_an_index_without_machine_code_is_not_compiled(tmp_path):
     assert not kernels._is_compiled(tmp_path / "m.py")
     (tmp_path / "__pycache__" / "m.kernel-1.py311.1.nbc").touch()
     assert kernels._is_compiled(tmp_path / "m.py")
+
+
+def test_machine_code_has_a_place_where_the_package_is_read_only(tmp_path, monkeypatch):
+    (tmp_path / "package").write_text("a file, in which no folder can be made")
+    monkeypatch.setattr(machine_code, "_PACKAGE", tmp_path / "package")
+    monkeypatch.setattr(machine_code, "cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(numba.config, "CACHE_DIR", "")
+    assert machine_code.kept_on_disk.__wrapped__()
+    assert str(tmp_path) == numba.config.CACHE_DIR
+    function = numba.njit(numba.float64(numba.float64), cache=True)(lambda x: 2 * x)
+    assert function(2.0) == 4.0
+    assert list(tmp_path.glob("*/*.nbc"))
 
 
 def test_an_unwritable_cache_is_survived(tmp_path, monkeypatch):

@@ -25,6 +25,7 @@ import numpy as np
 from ..threads import cores, map_threads
 from . import math32, math64
 from .engine import check_lengths
+from .machine_code import cache_folder
 from .printers.numba import BLOCK, print_kernel
 from .trace import parameter_values, trace
 
@@ -121,19 +122,3 @@ def _environment() -> str:
     """What the machine code depends on beside the source."""
     parts = [Path(str(module.__file__)).read_text() for module in (math32, math64)]
     return "".join([numba.__version__, sys.version, *parts])
-
-
-@functools.cache
-def cache_folder() -> Path:
-    """The folder of generated kernels: `BRDF_CACHE`, the user's cache folder, or a temporary one."""
-    roots = [os.environ.get("BRDF_CACHE"), os.environ.get("XDG_CACHE_HOME"), Path.home() / ".cache"]
-    for root in roots:
-        if root:
-            folder = Path(root) / "brdf" / "kernels"
-            try:
-                folder.mkdir(parents=True, exist_ok=True)
-                with tempfile.TemporaryFile(dir=folder):
-                    return folder
-            except OSError:
-                continue
-    return Path(tempfile.mkdtemp(prefix="brdf-kernels-"))

@@ -11,6 +11,8 @@ from collections.abc import Callable
 
 from numba import njit, types
 
+from ..formula.machine_code import kept_on_disk
+
 SIZES = types.UniTuple(types.int64, 4)  # type: ignore[no-untyped-call]
 
 
@@ -26,7 +28,7 @@ def compiled(function: Callable[..., None], real: str) -> Callable[..., None]:
     }[function]
     out = types.Array(number, 2 if function is sample else 1, "C")
     signature = types.void(types.int64, types.int64, *arrays, SIZES, types.float64, types.boolean, out)
-    kernel: Callable[..., None] = njit(signature, nogil=True, cache=True, error_model="numpy")(function)
+    kernel: Callable[..., None] = njit(signature, nogil=True, cache=kept_on_disk(), error_model="numpy")(function)
     return kernel
 
 

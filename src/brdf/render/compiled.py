@@ -12,6 +12,7 @@ from typing import Any
 
 import numba
 
+from ..formula.machine_code import kept_on_disk
 from ..threads import cores, in_ranges
 
 GRAIN = 16384
@@ -47,7 +48,7 @@ def helper(function: Callable[..., Any]) -> Callable[..., Any]:
 def _njit(*signature: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     njit: Any = numba.njit
     decorator: Callable[[Callable[..., Any]], Callable[..., Any]] = njit(
-        *signature, nogil=True, cache=True, error_model="numpy"
+        *signature, nogil=True, cache=kept_on_disk(), error_model="numpy"
     )
     return decorator
 

@@ -18,12 +18,14 @@ from typing import Any
 import numba
 from numba import boolean, float32, float64, int64, types
 
+from ..formula.machine_code import kept_on_disk
+
 _TABLE = types.Array(float32, 4, "C", readonly=True)
 _COLOURS = types.Array(float32, 5, "C", readonly=True)
 _NODES = types.Array(float64, 1, "C", readonly=True)
 _SETTINGS = types.UniTuple(int64, 2)
 _MODEL = types.Tuple((_NODES, _NODES, types.UniTuple(_TABLE, 3), types.UniTuple(_TABLE, 3), _TABLE, _TABLE))
-_JIT: dict[str, Any] = {"nogil": True, "cache": True, "error_model": "numpy"}
+_JIT: dict[str, Any] = {"nogil": True, "cache": kept_on_disk(), "error_model": "numpy"}
 
 TINY_AREA = 1e-12
 """Floor of the area d(omega) / d(u, v), which vanishes as u^3 at the pole: 1e-12 is reached at 1e-8 rad from it."""
