@@ -89,7 +89,9 @@ def compile_ahead(reflectances: Sequence[Any], real: str = "float32") -> None:
 
 def _is_compiled(module: Path) -> bool:
     # The machine code is what numba writes last; the index beside it (.nbi) comes before.
-    return any(module.parent.glob(f"__pycache__/{module.stem}.*.nbc"))
+    elsewhere = numba.config.CACHE_DIR  # type: ignore[attr-defined]
+    folder, pattern = (Path(elsewhere), "*/") if elsewhere else (module.parent, "__pycache__/")
+    return any(folder.glob(f"{pattern}{module.stem}.*.nbc"))
 
 
 def _module_of(reflectance: Any, real: str) -> Path:

@@ -48,7 +48,12 @@ def _models() -> list[tuple[str, str]]:
 def _materials() -> list[tuple[str, str]]:
     from ... import materials
 
-    return [(name, ", ".join(f"@{fit}" for fit in materials.fits(name))) for name in materials.names()]
+    def fits(name: str) -> str:
+        known = materials.fits(name)
+        more = f" and {len(known) - 2} more: brdf info {name}" if len(known) > 3 else ""
+        return ", ".join(f"@{fit}" for fit in (known[:2] if more else known)) + more
+
+    return [(name, fits(name)) for name in materials.names()]
 
 
 def _meshes() -> list[tuple[str, str]]:
