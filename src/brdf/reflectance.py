@@ -54,6 +54,8 @@ class Reflectance(ABC):
     """Whether it depends on the place on the surface, `uv`."""
     breaks: ClassVar[Mapping[str, str]] = {}
     """Laws it is known to break, each with the reason and its source."""
+    lossless: ClassVar[Mapping[str, Any] | None] = None
+    """Values of parameters with which it promises to lose no light at all; None for no such promise."""
     _kinds: ClassVar[dict[str, type[Reflectance]]] = {}
 
     __array_ufunc__ = None

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from brdf import Reflectance, laws, models
+from brdf.formula import Vec, floor
 from brdf.geometry.sampling import CosineSampler, GGXSampler
 from brdf.laws.cells import counted
 from brdf.laws.sampling import chi_squared_p
@@ -96,7 +97,21 @@ class FormulaNotReciprocal(models.Lambertian):
         return self.albedo * (1 - 1e-4 * wi.z)
 
 
-for _helper in (WrongWeight, FormulaBelowZero, FormulaNotReciprocal):
+class Leaking(models.Lambertian):
+    """Promises to lose nothing and loses a hundredth."""
+
+    def f(self, wi: Any, wo: Any) -> Any:
+        return self.albedo * (0.99 / np.pi)
+
+
+class WrongSlope(models.Lambertian):
+    """Its lookup jumps with the parameter: no slope of a linear interpolation says so."""
+
+    def f(self, wi: Any, wo: Any) -> Any:
+        return Vec(*(floor(c * 1e7) * 1e-7 for c in self.albedo)) * (wi.z + 1.0)
+
+
+for _helper in (Leaking, WrongSlope, WrongWeight, FormulaBelowZero, FormulaNotReciprocal):
     models.model.REGISTRY.pop(_helper.__name__)
 
 BROKEN: dict[str, tuple[str, Reflectance]] = {
@@ -106,6 +121,11 @@ BROKEN: dict[str, tuple[str, Reflectance]] = {
     "not a number in float32": ("positivity", Given(lambda wi, wo: 1 / (wi[:, 2] * 1e-34) * 1e-34)),
     "a formula that tells wi from wo": ("reciprocity", FormulaNotReciprocal()),
     "data that tell wi from wo": ("reciprocity", Given(lambda wi, wo: 0.3 * wi[:, 2] ** 3)),
+    "a leak in the furnace": ("furnace", Leaking()),
+    "steps where a slope should be": ("gradients", WrongSlope(albedo=0.123)),
+    "an azimuth at the normal": ("pole", Given(lambda wi, wo: 1 + 0.5 * np.cos(np.arctan2(wo[:, 1], wo[:, 0])))),
+    "another value at the normal": ("pole", Given(lambda wi, wo: np.where(wo[:, 0] == 0, 0.5, 0.4) + 0 * wi[:, 0])),
+    "more radiosity than irradiance": ("hemispherical", Given(lambda wi, wo: 1.02 / np.pi)),
     "albedo 1.02": ("energy", Given(lambda wi, wo: 1.02 / np.pi)),
     "gains at grazing": ("energy", Given(lambda wi, wo: 0.1 / np.maximum(wo[:, 2], 1e-9))),
     "density 5 % too large": ("sampling", Given(ggx, Scaled(0.2, 0.2))),

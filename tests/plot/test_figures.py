@@ -122,8 +122,8 @@ def test_saved_by_extension(extension: str, tmp_path: Path) -> None:
 
 
 def test_bad_input(tmp_path: Path) -> None:
-    with pytest.raises(UnknownFormatError, match=r"figures are written as \.eps, \.html"):
-        plot.save(plot.cartesian(DIFFUSE), tmp_path / "x.gif")
+    with pytest.raises(UnknownFormatError, match=r"figures are written as .*\.html, .*\.svg"):
+        plot.save(plot.cartesian(DIFFUSE), tmp_path / "x.xyz")
     assert not list(tmp_path.iterdir())
     with pytest.raises(ParameterError, match="a figure shows 1 to 6 materials, got 7"):
         plot.lobes([DIFFUSE] * 7)

@@ -82,13 +82,14 @@ class Report:
 class Law:
     """A named check; calling it measures a reflectance and adds what the reflectance declares about this law."""
 
-    def __init__(self, name: str, measure: Callable[[Reflectance], LawResult]) -> None:
+    def __init__(self, name: str, measure: Callable[[Reflectance], LawResult], excused_by: str = "") -> None:
         self.name, self.__doc__ = name, measure.__doc__
-        self._measure = measure
+        self._measure, self._excuses = measure, (excused_by, name)
 
     def __call__(self, reflectance: Reflectance) -> LawResult:
         result = self._measure(reflectance)
-        return replace(result, declared=declared_breaches(reflectance).get(self.name, ""))
+        declared = declared_breaches(reflectance)
+        return replace(result, declared=next((declared[name] for name in self._excuses if name in declared), ""))
 
     def __repr__(self) -> str:
         return f"<law {self.name}>"
@@ -98,11 +99,11 @@ REGISTRY: dict[str, Law] = {}
 """Every law by name; a law enters by being defined."""
 
 
-def law(name: str) -> Callable[[Callable[[Reflectance], LawResult]], Law]:
-    """Register a function as the law `name`."""
+def law(name: str, excused_by: str = "") -> Callable[[Callable[[Reflectance], LawResult]], Law]:
+    """Register a function as the law `name`; a declared breach of `excused_by` counts for it, too."""
 
     def register(measure: Callable[[Reflectance], LawResult]) -> Law:
-        REGISTRY[name] = Law(name, measure)
+        REGISTRY[name] = Law(name, measure, excused_by)
         return REGISTRY[name]
 
     return register

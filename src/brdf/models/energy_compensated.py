@@ -69,6 +69,10 @@ class EnergyCompensated(Reflectance):
     def children(self) -> Mapping[str, Reflectance]:
         return {"base": self._base}
 
+    @property
+    def lossless(self) -> Mapping[str, Any] | None:  # type: ignore[override]
+        return {"F0": 1.0} if "F0" in self._base.values else None
+
     def f(self, wi: Vec, wo: Vec) -> Vec:
         lost = (1.0 - self.white_albedo_of(wi)) * (1.0 - self.white_albedo_of(wo))
         E_mean = texture1d(self.mean_albedo, 0.5)[0]

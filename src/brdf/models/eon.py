@@ -30,6 +30,8 @@ class EON(Model):
     with `directional_albedo="exact"`, within 0.1 % with the authors' polynomial. References: Portsmouth2025, Fujii2012.
     """
 
+    lossless = {"rho": 1.0}  # noqa: RUF012
+
     rho: RGB = albedo("reflectance of the facets", default=0.5)
     roughness: Scalar = number("roughness r", default=0.5, low=0.0, high=1.0)
     directional_albedo: Any = choice("how E is computed", "exact", _DIRECTIONAL_ALBEDOS)

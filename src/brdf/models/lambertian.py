@@ -16,6 +16,8 @@ class Lambertian(Model):
     Reference: Lambert1760.
     """
 
+    lossless = {"albedo": 1.0}  # noqa: RUF012
+
     albedo: RGB = albedo("directional-hemispherical reflectance", default=0.5)
 
     def f(self, wi: Vec, wo: Vec) -> Vec:

@@ -21,6 +21,8 @@ class Mirror(Model):
 
     has_delta = True
 
+    lossless = {"reflectance": 1.0}  # noqa: RUF012
+
     reflectance: RGB = albedo("share of the light that is reflected", default=1.0)
 
     def f(self, wi: Vec, wo: Vec) -> Vec:

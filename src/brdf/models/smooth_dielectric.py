@@ -30,6 +30,8 @@ class SmoothDielectric(Model):
     transmits = True
     has_delta = True
 
+    lossless = {}  # noqa: RUF012
+
     eta: Scalar = number("refractive index below the surface over that above", default=1.5, low=0.25, high=4.0)
 
     @property
