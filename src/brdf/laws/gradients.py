@@ -9,7 +9,8 @@ import numpy as np
 from ..formula.derivative import derivative
 from ..formula.evaluation import evaluate
 from ..formula.trace import component_names, parameter_values, trace
-from ..reflectance import MIDDLE, Reflectance
+from ..geometry.arguments import MIDDLE
+from ..reflectance import Reflectance
 from .probes import pairs, place
 from .result import LawResult, law
 
