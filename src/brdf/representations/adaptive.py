@@ -26,7 +26,7 @@ _BLOCK = 8192
 """Pairs that a thread takes at a time."""
 _REDUCTIONS = (1, 2, 4)
 """A file holds incident azimuths of the whole circle, a half (point symmetry) or a quarter (two mirrors)."""
-_DEFENCE = 0.1
+_DEFENCE = 1 / 16
 """Share of cosine-distributed samples: the warp for `wo` may miss directions in which f(wi, wo) is not zero."""
 
 
