@@ -19,7 +19,8 @@ class UnknownNameError(BrdfError, LookupError):
 
     def __init__(self, kind: str, name: str, known: Iterable[str], hint: str = "") -> None:
         known = sorted(known)
-        near = difflib.get_close_matches(name, known, n=3, cutoff=0.6)
+        in_lower = {n.lower(): n for n in known}
+        near = [in_lower[n] for n in difflib.get_close_matches(name.lower(), in_lower, n=3, cutoff=0.6)]
         if near:
             advice = "did you mean " + " or ".join(repr(n) for n in near) + "?"
         elif len(known) <= 20:

@@ -56,8 +56,12 @@ def load_profile(spec: str) -> Profile:
     return made
 
 
+def _model_names() -> list[str]:
+    return [*models.names(), *models.WRAPPERS]
+
+
 def _is_name(spec: str) -> bool:
-    return spec in materials.names() or spec in models.names()
+    return spec in materials.names() or spec in _model_names()
 
 
 def _term(term: str, spec: str) -> Reflectance:
@@ -73,7 +77,7 @@ def _term(term: str, spec: str) -> Reflectance:
 
 def _atom(text: str) -> Reflectance:
     """A name, a path, or `MODEL:parameters`."""
-    model_names = {name.lower() for name in models.names()}
+    model_names = {name.lower() for name in _model_names()}
     head, _, parameters = text.partition(":")
     if head.strip().lower() in model_names:
         return _model(head.strip(), parameters)
@@ -89,19 +93,19 @@ def _atom(text: str) -> Reflectance:
     if "*" in text:
         raise ParameterError(f"{text!r}: a factor is a number or three with slashes, as in 0.5*GGX or 1/.8/.3*GGX")
     if "=" in parameters:
-        raise UnknownNameError("model", head.strip(), models.names())
+        raise UnknownNameError("model", head.strip(), _model_names())
     if Path(text).suffix or os.sep in text or "/" in text:
         raise FileError(text, "no such file; check the path.")
-    raise UnknownNameError("material", name, [*materials.names(), *models.names()], "see `brdf list materials`")
+    raise UnknownNameError("material", name, [*materials.names(), *_model_names()], "see `brdf list materials`")
 
 
 def _model(name: str, parameters: str) -> Reflectance:
     given = _parameters(name, parameters)
     try:
-        made: Reflectance = models.get(name)(**given)
+        made = models.make(name, **given)
     except ParameterError as error:
         raise ParameterError(f"{name}: {error}") from None
-    return made.named(f"{made.name}:{parameters.strip()}" if given else made.name)
+    return made.named(f"{type(made).__name__}:{parameters.strip()}") if given else made
 
 
 def _parameters(name: str, parameters: str) -> dict[str, Any]:

@@ -29,7 +29,7 @@ def pixels(path: Path) -> np.ndarray:
 @pytest.mark.parametrize(
     ("kind", "names"),
     [
-        ("models", models.names),
+        ("models", lambda: sorted([*models.names(), "EnergyCompensated"])),
         ("materials", materials.names),
         ("formats", lambda: [f.name for f in io.formats()]),
     ],
@@ -48,7 +48,7 @@ def test_listed_meshes_can_be_rendered(brdf: Command, tmp_path: Path) -> None:
 
 def test_list_for_people_has_a_line_a_model(brdf: Command) -> None:
     lines = brdf("list", "models").out.splitlines()
-    assert [line.split()[0] for line in lines] == models.names()
+    assert [line.split()[0] for line in lines] == sorted([*models.names(), "EnergyCompensated"])
     assert all(len(line.split()) > 1 for line in lines)
 
 
@@ -67,6 +67,37 @@ def test_info_json_has_the_parameters_in_force(brdf: Command) -> None:
     assert len(values["eta"]) == 3
     assert described["choices"]["fresnel"]["value"] == "conductor"
     assert described["choices"]["fresnel"]["options"]["conductor"] == ["eta", "k"]
+
+
+def test_info_names_the_arrays_that_choices_take(brdf: Command) -> None:
+    described = json.loads(brdf("info", "Microfacet:ndf=map", "--json").out)
+    assert described["choices"]["ndf"]["options"]["map"] == ["facets"]
+    assert described["choices"]["fresnel"]["options"]["table"] == ["table"]
+    (declared,) = described["arrays"]
+    assert declared == {
+        "name": "facets", "shape": ["n", "n", 1], "low": 0.0, "high": None, "unit": "1",
+        "doc": "relative D over (h.x, h.y) in [-1, 1]^2",
+    }  # fmt: skip
+    out = brdf("info", "Microfacet:ndf=map").out
+    assert "relative D over (h.x, h.y) in [-1, 1]^2" in out
+    assert "n x n x 1" in out
+
+
+def test_every_listed_model_has_a_description(brdf: Command) -> None:
+    for name in json.loads(brdf("list", "models", "--json").out):
+        outcome = brdf("info", name)
+        assert outcome.code == 0, name
+        assert "Reference" in outcome.out, name
+
+
+def test_energy_compensation_goes_around_microfacets_of_any_kind(brdf: Command) -> None:
+    described = json.loads(brdf("info", "energycompensated:ndf=beckmann,alpha=.5,F0=1", "--json").out)
+    assert described["kind"] == "EnergyCompensated"
+    assert described["lobes"]["base"]["choices"]["ndf"]["value"] == "beckmann"
+    assert brdf("check", "EnergyCompensated:alpha=.5,F0=1").code == 0
+    outcome = brdf("info", "EnergyCompensated:alpha=7")
+    assert outcome.code == 2
+    assert "EnergyCompensated: alpha must lie in [0.0001, 1], got 7" in outcome.err
 
 
 def test_info_of_a_sum_describes_its_lobes(brdf: Command) -> None:

@@ -121,6 +121,17 @@ def test_saved_by_extension(extension: str, tmp_path: Path) -> None:
             assert outside not in content
 
 
+@pytest.mark.parametrize("extension", ["png", "svg", "html", "pdf"])
+def test_the_same_figure_is_the_same_file(extension: str, tmp_path: Path) -> None:
+    paths = [tmp_path / f"{name}.{extension}" for name in "ab"]
+    for path in paths:
+        plot.save(plot.albedo([SHINY, DIFFUSE], samples=64), path)
+    first, second = (path.read_bytes() for path in paths)
+    assert first == second
+    assert b"<dc:date>" not in first
+    assert b"/CreationDate" not in first
+
+
 def test_bad_input(tmp_path: Path) -> None:
     with pytest.raises(UnknownFormatError, match=r"figures are written as .*\.html, .*\.svg"):
         plot.save(plot.cartesian(DIFFUSE), tmp_path / "x.xyz")

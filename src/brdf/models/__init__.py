@@ -7,16 +7,33 @@ import pkgutil
 from typing import Any
 
 from ..errors import UnknownNameError
+from ..reflectance import Reflectance
 from .energy_compensated import EnergyCompensated
+from .microfacet import Microfacet
 from .model import REGISTRY, Model
 
 for _module in pkgutil.iter_modules(__path__):
     importlib.import_module(f"{__name__}.{_module.name}")
 
 
+WRAPPERS: dict[str, type[Reflectance]] = {"EnergyCompensated": EnergyCompensated}
+"""What is put around a `Microfacet` model, by name."""
+
+
 def names() -> list[str]:
     """The names of all models."""
     return sorted(REGISTRY)
+
+
+def make(name: str, **given: Any) -> Reflectance:
+    """The model of that name, in any case, or the wrapper around a `Microfacet`, with these parameters.
+
+    Raises UnknownNameError, ParameterError.
+    """
+    for wrapper_name, wrapper in WRAPPERS.items():
+        if name.lower() == wrapper_name.lower():
+            return wrapper(Microfacet(**given))  # type: ignore[call-arg]
+    return get(name)(**given)
 
 
 def get(name: str) -> type[Model]:
@@ -33,4 +50,4 @@ def __getattr__(name: str) -> Any:
     raise AttributeError(f"no model {name!r}; known: {', '.join(names())}")
 
 
-__all__ = ["EnergyCompensated", "Model", "get", "names"]
+__all__ = ["WRAPPERS", "EnergyCompensated", "Model", "get", "make", "names"]

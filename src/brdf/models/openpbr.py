@@ -130,9 +130,10 @@ class OpenPBR(Model):
 
 
 def _f82_tint(cosine: Scalar, F0: Vec, tint: Vec) -> Vec:
-    """Schlick's curve pulled down to `tint` times itself at cosine 1/7."""
+    """Schlick's curve pulled down to `tint` times itself at cosine 1/7; kept at 0 where that would be less."""
     at_82 = 1.0 / 7.0
     schlick = F0 + (1.0 - F0) * (1.0 - at_82) ** 5
     dip = schlick * (1.0 - tint) / (at_82 * (1.0 - at_82) ** 6)
     grazing = maximum(1.0 - cosine, 0.0)
-    return F0 + (1.0 - F0) * grazing**5 - dip * (cosine * grazing**6)
+    curve: Vec = maximum(F0 + (1.0 - F0) * grazing**5 - dip * (cosine * grazing**6), 0.0)
+    return curve

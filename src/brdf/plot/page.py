@@ -95,13 +95,22 @@ def save(figure: Figure, path: str | os.PathLike[str]) -> None:
         if kind == "html":
             temporary.write_text(_page(figure), "utf-8")
         else:
-            figure.savefig(temporary, format=kind)
+            _draw(figure, temporary, kind)
+
+
+def _draw(figure: Figure, target: Any, kind: str) -> None:
+    """The figure as a picture; vectors without a date and with the same names of their parts each time."""
+    import matplotlib
+
+    undated: dict[str, dict[str, Any]] = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+    with matplotlib.rc_context({"svg.hashsalt": "brdf"}):
+        figure.savefig(target, format=kind, metadata=undated.get(kind))
 
 
 def _page(figure: Figure) -> str:
     """The figure as vectors in a page of its own."""
     drawn = io.StringIO()
-    figure.savefig(drawn, format="svg")
+    _draw(figure, drawn, "svg")
     picture = drawn.getvalue()
     title = html.escape(" ".join(figure.get_suptitle().split()))
     return (

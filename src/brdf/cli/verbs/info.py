@@ -50,6 +50,7 @@ def describe(m: Reflectance) -> dict[str, Any]:
         "breaks": dict(m.breaks),
         "choices": _choices(m),
         "parameters": _parameters(m),
+        "arrays": _arrays(m),
         "textures": {name: [*texture.shape] for name, texture in m.textures.items()},
     }
     if m.children:
@@ -100,17 +101,34 @@ def _choices(m: Any) -> dict[str, dict[str, Any]]:
 
 
 def _names(part: Any) -> list[str]:
-    """Parameters that come with an option of a choice."""
+    """Parameters and arrays that come with an option of a choice."""
     from ...parameters import Parameterised
 
     is_part = isinstance(part, type) and issubclass(part, Parameterised)
-    return list(part._declared) if is_part else []
+    return [*part._declared, *part._declared_textures] if is_part else []
 
 
 def _parameters(m: Any) -> list[dict[str, Any]]:
     from ...parameters import Parameterised
 
     return [_row(m, name, p) for name, p in m.declarations().items()] if isinstance(m, Parameterised) else []
+
+
+def _arrays(m: Any) -> list[dict[str, Any]]:
+    """The arrays that can be given; a bound of None is none."""
+    from ...parameters import Parameterised
+
+    def finite(bound: float) -> float | None:
+        return bound if math.isfinite(bound) else None
+
+    declared = m.declared_textures() if isinstance(m, Parameterised) else {}
+    return [
+        {
+            "name": name, "shape": [*"n" * t.dimensions, t.channels], "low": finite(t.low), "high": finite(t.high),
+            "unit": t.unit, "doc": t.doc,
+        }
+        for name, t in declared.items()
+    ]  # fmt: skip
 
 
 def _row(m: Parameterised, name: str, parameter: Parameter) -> dict[str, Any]:
@@ -157,6 +175,10 @@ def _print(d: dict[str, Any], indent: str = "") -> None:
         print()
         rows = [_cells(p) for p in d["parameters"]]
         output.print_table(("parameter", "value", "bounds", "unit", "meaning"), rows, indent)
+    if d["arrays"]:
+        print()
+        shown = [(a["name"], " x ".join(map(str, a["shape"])), _bounds(a), a["unit"], a["doc"]) for a in d["arrays"]]
+        output.print_table(("array", "shape", "bounds", "unit", "meaning"), shown, indent)
     for key, lobe in d.get("lobes", {}).items():
         print(f"\n{indent}{key}:")
         _print(lobe, indent + "  ")
@@ -187,7 +209,11 @@ def _cells(p: dict[str, Any]) -> tuple[str, ...]:
         shown = f"as {p['follows']}" if p["follows"] else "not in force"
     else:
         shown = " ".join(f"{v:.4g}" for v in (value if isinstance(value, list) else [value]))
+    return p["name"], shown, _bounds(p), p["unit"], p["doc"]
+
+
+def _bounds(p: dict[str, Any]) -> str:
     low, high = p["low"], p["high"]
-    left = "(-∞" if math.isinf(low) else f"[{low:g}"
-    right = "∞)" if math.isinf(high) else f"{high:g}]"
-    return p["name"], shown, f"{left}, {right}", p["unit"], p["doc"]
+    left = "(-∞" if low is None or math.isinf(low) else f"[{low:g}"
+    right = "∞)" if high is None or math.isinf(high) else f"{high:g}]"
+    return f"{left}, {right}"

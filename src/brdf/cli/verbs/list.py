@@ -42,7 +42,8 @@ def command(
 def _models() -> list[tuple[str, str]]:
     from ... import models
 
-    return [(name, _first_line(models.get(name).__doc__)) for name in models.names()]
+    found = {name: models.get(name) for name in models.names()} | models.WRAPPERS
+    return [(name, _first_line(found[name].__doc__)) for name in sorted(found)]
 
 
 def _materials() -> list[tuple[str, str]]:
