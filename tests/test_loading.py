@@ -14,6 +14,10 @@ WI = np.array([0.48, 0.0, np.sqrt(1 - 0.48**2)])
 WO = np.array([-0.28, 0.3, np.sqrt(1 - 0.28**2 - 0.3**2)])
 
 
+def test_a_factor_is_in_the_name() -> None:
+    assert brdf.load("2*Lambertian:albedo=.9").name == "2*Lambertian:albedo=.9"
+
+
 def test_a_model_by_name_has_its_defaults() -> None:
     assert np.array_equal(brdf.load("GGX")(WI, WO), brdf.models.GGX()(WI, WO))
     assert np.array_equal(brdf.load("ggx")(WI, WO), brdf.models.GGX()(WI, WO))

@@ -72,7 +72,7 @@ def _term(term: str, spec: str) -> Reflectance:
     if match is None:
         return _atom(term.strip())
     factor = _value(match[1])
-    return scaled(_atom(match[2].strip()), factor)
+    return scaled(_atom(match[2].strip()), factor).named(term.strip())
 
 
 def _atom(text: str) -> Reflectance:

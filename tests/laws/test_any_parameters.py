@@ -91,9 +91,7 @@ def represented(data: Path) -> dict[str, Reflectance]:
     }
 
 
-@pytest.mark.parametrize(
-    "law", ["density", "energy", "gradients", "hemispherical", "isotropy", "pole", "positivity", "weight"]
-)
+@pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("kind", ["Table", "SliceStack", "Adaptive", "Scattered"])
 def test_representations(represented: dict[str, Reflectance], kind: str, law: str) -> None:
     result = LAWS[law](represented[kind])

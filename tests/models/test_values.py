@@ -9,6 +9,7 @@ import pytest
 
 from brdf import models
 from brdf.errors import UnknownNameError
+from brdf.formula.engine import SMALL
 from brdf.models import (
     GGX,
     SGD,
@@ -252,6 +253,17 @@ def test_single_precision_agrees_with_double(model: Reflectance) -> None:
     np.testing.assert_allclose(single, double, rtol=1e-3, atol=1e-5)
 
 
+COMPILED = [model for model in (models.get(name)() for name in models.names()) if not model.has_delta]
+
+
+@pytest.mark.parametrize("model", [*COMPILED, *SHARP, models.EnergyCompensated(Microfacet(alpha=0.5))], ids=repr)
+def test_compiled_equals_numpy(model: Reflectance) -> None:
+    """Many pairs are evaluated by compiled code, few by NumPy; both in double precision."""
+    wi, wo = random_pairs(SMALL, seed=2)
+    few = [model.raw(wi[i : i + 2000], wo[i : i + 2000]) for i in range(0, len(wi), 2000)]
+    np.testing.assert_allclose(model.raw(wi, wo), np.concatenate(few), rtol=1e-8, atol=1e-12)
+
+
 RECIPROCAL = [
     model
     for model in [*{type(c.model): c.model for c in CASES}.values(), *SHARP]
@@ -268,4 +280,6 @@ def test_reciprocal(model: Reflectance) -> None:
 def test_unknown_model_offers_the_nearest() -> None:
     with pytest.raises(UnknownNameError, match="unknown model 'blinphong': did you mean 'BlinnPhong'"):
         models.get("blinphong")
+    with pytest.raises(UnknownNameError, match="unknown model 'ggxx': did you mean 'GGX'"):
+        models.get("ggxx")
     assert models.get("oren" + "nayar") is OrenNayar
