@@ -92,8 +92,10 @@ def _atom(text: str) -> Reflectance:
         raise ParameterError(f"{text!r}: a model has no published fits; give its parameters, as in GGX:alpha=0.2")
     if "*" in text:
         raise ParameterError(f"{text!r}: a factor is a number or three with slashes, as in 0.5*GGX or 1/.8/.3*GGX")
+    if names_profile(text):
+        raise ParameterError(f"{text!r} is a profile of subsurface scattering, no reflectance; `brdf show` draws it")
     if "=" in parameters:
-        raise UnknownNameError("model", head.strip(), _model_names())
+        raise UnknownNameError("model", head.strip(), [*_model_names(), *profiles.names()])
     if Path(text).suffix or os.sep in text or "/" in text:
         raise FileError(text, "no such file; check the path.")
     raise UnknownNameError("material", name, [*materials.names(), *_model_names()], "see `brdf list materials`")

@@ -24,6 +24,19 @@ def test_several_materials_and_profiles(brdf: Command, tmp_path: Path) -> None:
     assert (tmp_path / "p.svg").exists()
 
 
+def test_two_fits_of_one_material_are_told_apart(brdf: Command, tmp_path: Path) -> None:
+    assert brdf("show", "chrome", "chrome@ngan_ward", "--what", "albedo", "-o", "x.html").code == 0
+    assert "chrome and chrome@ngan_ward" in (tmp_path / "x.html").read_text("utf-8")
+
+
+def test_a_profile_is_no_reflectance_and_has_a_name_to_guess(brdf: Command) -> None:
+    for verb in ("info", "check", "render"):
+        outcome = brdf(verb, "burley:A=.5")
+        assert outcome.code == 2
+        assert "'burley:A=.5' is a profile of subsurface scattering, no reflectance" in outcome.err
+    assert "unknown model 'burly': did you mean 'burley'?" in brdf("show", "burly:A=.5").err
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

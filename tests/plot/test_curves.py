@@ -93,3 +93,15 @@ def test_angles_and_axes_are_labelled_with_units() -> None:
         assert all(texts)
         assert any("°" in t.get_text() for t in draw(SHINY).axes[0].get_xticklabels())
     assert "[1/sr]" in plot.lobes(SHINY).get_suptitle()
+
+
+def test_a_mirror_is_a_line_in_the_mirror_direction() -> None:
+    glass = 0.5 * models.SmoothDielectric(eta=1.5)
+    (angle, _), (_, rim) = plot.lobes(glass, angles=(30,)).axes[0].lines[0].get_data()
+    assert angle == pytest.approx(np.radians(30))
+    assert rim > 0
+    figure = plot.lobes(glass, angles=(0,))
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["0°, mirrors 0.02"]
+    straight = plot.cartesian([SHINY, models.Mirror()], angles=(30,)).axes[0]
+    assert [30, 30] in [list(line.get_xdata()) for line in straight.lines]
+    assert len(plot.lobes(SHINY, angles=(30,)).axes[0].lines) == 2  # the curve and the light

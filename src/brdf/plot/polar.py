@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -44,11 +44,25 @@ COMPARED_ANGLES = (30, 70)
 VIEWS = 3597
 
 
+class Curve(NamedTuple):
+    """f over the viewing angles for light from one angle."""
+
+    style: int
+    angle: float
+    """of the light [degrees]"""
+    label: str | None
+    values: Any
+    """luminance of f [1/sr] at each viewing angle"""
+    mirrored: float
+    """what a delta distribution reflects into the mirror direction [1]"""
+
+
 def lobes(m: Materials, angles: Sequence[float] | None = None) -> Figure:
     """f in the plane of incidence for light from several polar `angles` [degrees], as polar curves.
 
-    The radius is the luminance of f [1/sr], logarithmic. Light comes from the left, the mirror direction is to the
-    right. Several reflectances lie over each other, each in a colour of its own.
+    The radius is the luminance of f [1/sr], logarithmic; a delta distribution is a line to the rim. Light comes
+    from the left, the mirror direction is to the right. Several reflectances lie over each other, each in a
+    colour of its own.
     """
     given = several(m)
     height = height_for(given)
@@ -58,7 +72,10 @@ def lobes(m: Materials, angles: Sequence[float] | None = None) -> Figure:
 
 
 def cartesian(m: Materials, angles: Sequence[float] | None = None) -> Figure:
-    """The same values over the viewer's angle: luminance of f [1/sr], logarithmic, light from the left (-90°)."""
+    """The same values over the viewer's angle: luminance of f [1/sr], logarithmic, light from the left (-90°).
+
+    A delta distribution is an upright line.
+    """
     given = several(m)
     figure = figure_of(HEIGHT)
     titled(figure, f"{names_of(given)}\n{draw_cartesian(figure, given, angles)}")
@@ -81,10 +98,12 @@ def draw_lobes(
     axes.set_thetamin(-90)
     axes.set_thetamax(90)
     view, curves = _curves(given, angles)
-    top, bottom = log_range(np.concatenate([values for *_, values in curves]), DECADES)
-    for k, angle, label, curve in curves:
-        radius = np.log10(np.maximum(curve, 10.0**bottom)) - bottom
+    top, bottom = log_range(np.concatenate([curve.values for curve in curves]), DECADES)
+    for k, angle, label, values, mirrored in curves:
+        radius = np.log10(np.maximum(values, 10.0**bottom)) - bottom
         colour = COLOURS[k % len(COLOURS)]
+        if mirrored > 0:
+            axes.plot([math.radians(angle)] * 2, [0, top - bottom], color=colour, ls=DASHES[k % len(DASHES)], lw=1.6)
         axes.plot(view, radius, color=colour, ls=DASHES[k % len(DASHES)], lw=1.6, label=label)
         marker = colour if len(given) == 1 else "0.2"
         axes.plot([-math.radians(angle)], [top - bottom], marker="v", color=marker, ms=7, clip_on=False)
@@ -104,10 +123,12 @@ def draw_lobes(
 def draw_cartesian(figure: FigureBase, given: list[Reflectance], angles: Sequence[float] | None = None) -> str:
     axes: Any = figure.add_subplot()
     view, curves = _curves(given, angles)
-    top, bottom = log_range(np.concatenate([values for *_, values in curves]), DECADES)
-    for k, angle, label, curve in curves:
+    top, bottom = log_range(np.concatenate([curve.values for curve in curves]), DECADES)
+    for k, angle, label, values, mirrored in curves:
         colour = COLOURS[k % len(COLOURS)]
-        shown = np.where(curve > 0, curve, np.nan)
+        if mirrored > 0:
+            axes.axvline(angle, color=colour, ls=DASHES[k % len(DASHES)], lw=1.6)
+        shown = np.where(values > 0, values, np.nan)
         axes.semilogy(np.degrees(view), shown, color=colour, ls=DASHES[k % len(DASHES)], lw=1.6, label=label)
         marker = colour if len(given) == 1 else "0.2"
         axes.plot([-angle], [10.0**top], marker="v", color=marker, ms=7, clip_on=False)
@@ -119,20 +140,21 @@ def draw_cartesian(figure: FigureBase, given: list[Reflectance], angles: Sequenc
     return "f in the plane of incidence, luminance"
 
 
-def _curves(
-    given: list[Reflectance], angles: Sequence[float] | None
-) -> tuple[Any, list[tuple[int, float, str | None, Any]]]:
-    """Viewing angles [rad], and per curve: its style, the light's angle [degrees], its label, the luminance of f."""
+def _curves(given: list[Reflectance], angles: Sequence[float] | None) -> tuple[Any, list[Curve]]:
+    """Viewing angles [rad], and the curves."""
     if angles is None:
         angles = LIGHT_ANGLES if len(given) == 1 else COMPARED_ANGLES
     view = np.radians(np.linspace(-89.9, 89.9, VIEWS))
     wo = from_spherical(view, 0.0)
-    curves: list[tuple[int, float, str | None, Any]] = []
+    curves = []
     for number, m in enumerate(given):
         for k, angle in enumerate(angles):
-            value = luminance(m(from_spherical(-math.radians(angle), 0.0), wo))
+            wi, opposite = (from_spherical(sign * math.radians(angle), 0.0) for sign in (-1, 1))
+            mirrored = float(luminance(m.delta(wi, opposite))) if m.has_delta else 0.0
             if len(given) == 1:
-                curves.append((k, angle, f"{angle:g}°", value))
+                label: str | None = f"{angle:g}°" + (f", mirrors {mirrored:.2g}" if mirrored > 0 else "")
             else:
-                curves.append((number, angle, None if k else name_of(m, 28), value))
+                label = None if k else name_of(m, 28)
+            style = k if len(given) == 1 else number
+            curves.append(Curve(style, angle, label, luminance(m(wi, wo)), mirrored))
     return view, curves

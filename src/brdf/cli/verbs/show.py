@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -64,11 +65,15 @@ def command(
     drawn: list[Any]
     profiles = [names_profile(spec) for spec in materials]
     if any(profiles) and (not all(profiles) or what is not What.all):
-        raise ParameterError("profiles of subsurface scattering have a figure of their own; show them without --what")
+        raise ParameterError(
+            "profiles of subsurface scattering have a figure of their own; show them without materials or --what"
+        )
     drawn = [
         load_profile(spec) if is_profile else arguments.load(spec)
         for spec, is_profile in zip(materials, profiles, strict=True)
     ]
+    if len({m.name for m in drawn}) < len(drawn):  # two fits of one material, say
+        drawn = [copy.copy(m).named(spec) for m, spec in zip(drawn, materials, strict=True)]
     if len(drawn) > 1 and what in SINGLE:
         raise ParameterError(f"--what {what} shows one material, {len(drawn)} were given")
     path = out or arguments.file_name(drawn[0], "-figure.png")
