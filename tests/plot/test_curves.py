@@ -101,7 +101,7 @@ def test_a_mirror_is_a_line_in_the_mirror_direction() -> None:
     assert angle == pytest.approx(np.radians(30))
     assert rim > 0
     figure = plot.lobes(glass, angles=(0,))
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["0°, mirrors 0.02"]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["0°: 0.02"]
     straight = plot.cartesian([SHINY, models.Mirror()], angles=(30,)).axes[0]
     assert [30, 30] in [list(line.get_xdata()) for line in straight.lines]
     assert len(plot.lobes(SHINY, angles=(30,)).axes[0].lines) == 2  # the curve and the light

@@ -60,8 +60,8 @@ class Curve(NamedTuple):
 def lobes(m: Materials, angles: Sequence[float] | None = None) -> Figure:
     """f in the plane of incidence for light from several polar `angles` [degrees], as polar curves.
 
-    The radius is the luminance of f [1/sr], logarithmic; a delta distribution is a line to the rim. Light comes
-    from the left, the mirror direction is to the right. Several reflectances lie over each other, each in a
+    The radius is the luminance of f [1/sr], logarithmic; a delta distribution is a line to the rim, its share
+    in the legend. Light comes from the left, the mirror direction is to the right. Several reflectances lie over each other, each in a
     colour of its own.
     """
     given = several(m)
@@ -74,7 +74,7 @@ def lobes(m: Materials, angles: Sequence[float] | None = None) -> Figure:
 def cartesian(m: Materials, angles: Sequence[float] | None = None) -> Figure:
     """The same values over the viewer's angle: luminance of f [1/sr], logarithmic, light from the left (-90°).
 
-    A delta distribution is an upright line.
+    A delta distribution is an upright line, its share of the light in the legend.
     """
     given = several(m)
     figure = figure_of(HEIGHT)
@@ -152,7 +152,7 @@ def _curves(given: list[Reflectance], angles: Sequence[float] | None) -> tuple[A
             wi, opposite = (from_spherical(sign * math.radians(angle), 0.0) for sign in (-1, 1))
             mirrored = float(luminance(m.delta(wi, opposite))) if m.has_delta else 0.0
             if len(given) == 1:
-                label: str | None = f"{angle:g}°" + (f", mirrors {mirrored:.2g}" if mirrored > 0 else "")
+                label: str | None = f"{angle:g}°" + (f": {mirrored:.2g}" if mirrored > 0 else "")
             else:
                 label = None if k else name_of(m, 28)
             style = k if len(given) == 1 else number
