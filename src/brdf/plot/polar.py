@@ -61,8 +61,8 @@ def lobes(m: Materials, angles: Sequence[float] | None = None) -> Figure:
     """f in the plane of incidence for light from several polar `angles` [degrees], as polar curves.
 
     The radius is the luminance of f [1/sr], logarithmic; a delta distribution is a line to the rim, its share
-    in the legend. Light comes from the left, the mirror direction is to the right. Several reflectances lie over each other, each in a
-    colour of its own.
+    in the legend. Light comes from the left, the mirror direction is to the right. Several reflectances lie
+    over each other, each in a colour of its own.
     """
     given = several(m)
     height = height_for(given)
