@@ -16,7 +16,7 @@ from brdf.combinators import Sum
 from brdf.errors import UnknownNameError
 from brdf.geometry.directions import from_spherical, reflected
 from brdf.materials import catalogue, conventions
-from brdf.models import HeTorrance, ModifiedPhong
+from brdf.models import HeTorrance, Lambertian, ModifiedPhong
 from brdf.reflectance import Reflectance
 from lobes import direction
 from networks import nbrdf
@@ -129,6 +129,7 @@ def test_index_printed_as_one_leaves_the_diffuse_part() -> None:
     for name in lost:
         row = rows("ngan_he")[name]
         value = materials.get(name, "ngan_he")(direction(20), direction(20, 180))
+        assert isinstance(materials.get(name, "ngan_he"), Lambertian)
         np.testing.assert_allclose(value, np.array(row["kd"]) * [1, 1.15, 1.66] / np.pi, rtol=1e-12)
 
 

@@ -11,7 +11,7 @@ from brdf import materials
 from brdf.laws.probes import adversarial
 from brdf.materials import catalogue
 from brdf.reflectance import Reflectance
-from lobes import direction, lobe_albedo
+from lobes import direction, lobe_albedo, random_pairs
 from networks import nbrdf
 
 SGD = [f"{name}@bagher_sgd" for name in catalogue.names()]
@@ -56,6 +56,18 @@ def test_finite_and_not_negative(fit: str, pairs: tuple[np.ndarray, np.ndarray])
             assert value.dtype == dtype
             assert np.isfinite(value).all(), row
             assert (value >= 0).all(), row
+
+
+@pytest.mark.parametrize("fit", ROWS)
+def test_reciprocal_and_isotropic(fit: str) -> None:
+    """Also after both directions turn together by a radian."""
+    wi, wo = random_pairs(120)
+    turn = np.array([[np.cos(1), -np.sin(1), 0], [np.sin(1), np.cos(1), 0], [0, 0, 1]])
+    for row in ROWS[fit]:
+        m = materials.get(row)
+        value = m(wi, wo)
+        np.testing.assert_allclose(m(wo, wi), value, rtol=1e-6, atol=1e-9, err_msg=row)
+        np.testing.assert_allclose(m(wi @ turn, wo @ turn), value, rtol=1e-6, atol=1e-9, err_msg=row)
 
 
 def precision_loss(m: Reflectance, pairs: tuple[np.ndarray, np.ndarray], angle: float) -> float:

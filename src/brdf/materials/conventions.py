@@ -5,7 +5,7 @@ green and blue lack the factors 1.15 and 1.66 that the measurements are scaled b
 larger by 1.00, 1.16 and 1.68 in the median), which is made good here. Their Blinn-Phong lobe is (n + 2) / (2 pi) cos^n
 of the half vector's angle, their He-Torrance lengths are in wavelengths; both follow from comparison with networks
 fitted to the same measurements (see the tests). Where He-Torrance's index is printed as 1.00 its lobe, and with it a
-scale of up to 2e9, is lost: those four rows are diffuse.
+scale of up to 2e9, is lost: those four rows are diffuse alone.
 """
 
 from __future__ import annotations
@@ -89,6 +89,8 @@ def ngan_lafortune(row: Row) -> Reflectance:
 
 
 def ngan_he(row: Row) -> Reflectance:
+    if row["eta"] == 1:
+        return _diffuse(np.asarray(row["kd"]) * MERL_CHANNELS)
     lobe = model("HeTorrance")(sigma0=row["roughness"], tau=row["autocorrelation"], **_refraction(row["eta"]))
     return _sum(row, lobe, channels=MERL_CHANNELS)
 
