@@ -12,6 +12,7 @@ from collections.abc import Callable
 from numba import njit, types
 
 from ..formula.machine_code import kept_on_disk
+from .search import first_above
 
 SIZES = types.UniTuple(types.int64, 4)  # type: ignore[no-untyped-call]
 
@@ -67,13 +68,7 @@ def _left_over(u, share, happens):  # type: ignore[no-untyped-def]
 def _inverted(cumulative, row, u, size):  # type: ignore[no-untyped-def]
     """The entry of a row of cumulative probabilities that `u` falls into, and where in it, in [0, 1]."""
     first = row * size
-    low, high = first, first + size - 1
-    while low < high:
-        middle = (low + high) // 2
-        if cumulative[middle] > u:
-            high = middle
-        else:
-            low = middle + 1
+    low = first_above(cumulative, u, first, first + size - 1)
     below = cumulative[low - 1] if low > first else 0.0
     width = cumulative[low] - below
     return low, min(max((u - below) / width, 0.0), 1.0) if width > 0 else 0.5

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from .compiled import helper, kernel
+from ..geometry.search import first_above
+from .compiled import kernel
 
 ONE = np.float32(1)
 HALF = np.float32(0.5)
@@ -39,28 +40,15 @@ def look_up(
             radiance[n, c] = (ONE - b) * upper + b * lower
 
 
-@helper
-def _found(sums: Any, u: Any) -> Any:
-    """The first of the increasing running sums above u, at most the last."""
-    low, high = 0, len(sums) - 1
-    while low < high:
-        middle = (low + high) // 2
-        if sums[middle] > u:
-            high = middle
-        else:
-            low = middle + 1
-    return low
-
-
 @kernel("void(i8, i8, f4[:,::1], f4[::1], f4[:,::1], f4, f4, f4[:,::1])")
 def sample(start: int, stop: int, u: Any, rows: Any, columns: Any, cos: Any, sin: Any, directions: Any) -> None:
     """World directions distributed as the cells' brightness; within a cell evenly over solid angle."""
     height, width = columns.shape
     for n in range(start, stop):
-        i = _found(rows, u[n, 0])
+        i = first_above(rows, u[n, 0], 0, height - 1)
         below = rows[i - 1] if i > 0 else np.float32(0)
         along_row = (u[n, 0] - below) / max(rows[i] - below, np.float32(1e-20))
-        j = _found(columns[i], u[n, 1])
+        j = first_above(columns[i], u[n, 1], 0, width - 1)
         before = columns[i, j - 1] if j > 0 else np.float32(0)
         along_column = (u[n, 1] - before) / max(columns[i, j] - before, np.float32(1e-20))
         upper = math.cos(np.float32(i) * PI / np.float32(height))
