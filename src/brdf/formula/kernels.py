@@ -33,6 +33,7 @@ _PER_TASK = 64 * BLOCK
 """Pairs a thread takes at a time."""
 
 _kernels: dict[tuple[Any, ...], Callable[..., int]] = {}
+_modules: dict[tuple[Any, ...], Path] = {}
 _compilers: dict[Path, subprocess.Popen[bytes]] = {}
 """Processes that are compiling a module ahead of its use."""
 
@@ -95,7 +96,14 @@ def _is_compiled(module: Path) -> bool:
 
 
 def _module_of(reflectance: Any, real: str) -> Path:
-    """The generated module on disk, written if it is not there."""
+    """The generated module on disk, written if it is not there; a structure is traced and printed once."""
+    key = (real, reflectance.structure, cache_folder())
+    if key not in _modules or not _modules[key].exists():
+        _modules[key] = _written(reflectance, real)
+    return _modules[key]
+
+
+def _written(reflectance: Any, real: str) -> Path:
     source = print_kernel(trace(reflectance), real, has_horizon=not reflectance.transmits, varies=reflectance.varies)
     digest = hashlib.sha256((source + _environment()).encode()).hexdigest()[:24]
     path = cache_folder() / f"brdf_kernel_{digest}.py"
