@@ -12,17 +12,6 @@ from brdf.models import Microfacet
 from brdf.models.terms.fresnel import Dielectric
 from lobes import random_pairs
 
-
-@pytest.fixture(scope="module")
-def mi() -> Any:
-    mitsuba = pytest.importorskip("mitsuba")
-    before = mitsuba.variant()
-    mitsuba.set_variant("scalar_rgb")
-    yield mitsuba
-    if before is not None:
-        mitsuba.set_variant(before)
-
-
 COUNT = 10_000
 LOWEST = 0.01
 """Cosine from which on pairs are compared.

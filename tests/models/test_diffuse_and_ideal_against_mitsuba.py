@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -12,16 +11,6 @@ from brdf.geometry.directions import uniform_hemisphere
 from brdf.models import DisneyDiffuse, Lambertian, SmoothConductor, SmoothDielectric
 
 COUNT = 10_000
-
-
-@pytest.fixture(scope="module")
-def mi() -> Iterator[Any]:
-    mitsuba = pytest.importorskip("mitsuba")
-    before = mitsuba.variant()
-    mitsuba.set_variant("scalar_rgb")
-    yield mitsuba
-    if before is not None:
-        mitsuba.set_variant(before)
 
 
 def directions(seed: int) -> np.ndarray:

@@ -18,13 +18,6 @@ BLUE = ((0.1152 * 0.5 - 0.0278 * 0.8) / 0.0874, 0.5, 0.8)
 """A colour of one luminance by Disney's weights (0.3, 0.6, 0.1) and by Rec. 709's, which Mitsuba takes."""
 
 
-@pytest.fixture(scope="module")
-def mi() -> Any:
-    mitsuba = pytest.importorskip("mitsuba")
-    mitsuba.set_variant("scalar_rgb")
-    return mitsuba
-
-
 def pairs(n: int) -> tuple[np.ndarray, np.ndarray]:
     """Single-precision directions; nearer the horizon than 3 degrees, single precision costs Mitsuba a digit."""
     wi, wo = (w.astype(np.float32).astype(np.float64) for w in random_pairs(n))
