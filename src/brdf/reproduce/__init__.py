@@ -1,0 +1,1 @@
+"""The results of the source documents, made again: one module a document, our numbers beside theirs."""
