@@ -13,6 +13,7 @@ __version__ = "0.1.0"
 _NAMES = {
     "BTF": "representations.btf",
     "Reflectance": "reflectance",
+    "SphereImages": "representations.sphere_images",
     "SpatiallyVarying": "combinators",
     "TwoSided": "combinators",
     "SliceStack": "representations.slice_stack",

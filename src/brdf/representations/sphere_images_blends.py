@@ -1,0 +1,66 @@
+"""How two neighbouring pictures of a sphere become the one between them.
+
+A blend turns the normal about the vertical axis by k (phi_i - phi) before it looks picture i up; its rule says what k
+is. Normals are given by their azimuth a = atan2(n_x, n_z) in the plane of light and viewer, in which the light stands
+at phi, the viewer at 0 and the half vector at phi / 2 [rad].
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from ..errors import UnknownNameError
+from ..formula import Scalar, abs, clip, maximum, pi, sin, where
+
+Rule = Callable[[Scalar, Scalar, Scalar], Scalar]
+"""(a, phi, phi of the last picture) -> k."""
+
+NARROWEST = 1e-4
+"""Least half width [rad] of the lit and visible range of azimuths: it closes when the light stands behind."""
+
+
+def full(a: Scalar, phi: Scalar, last: float) -> Scalar:
+    """k = 1: the light falls on the turned normal as on the given one. Right for diffuse light, doubles highlights."""
+    return 0.0 * a + 1.0
+
+
+def half(a: Scalar, phi: Scalar, last: float) -> Scalar:
+    """k = 1/2: the half vector stays in place. Right for highlights, bends diffuse shades."""
+    return 0.0 * a + 0.5
+
+
+def paper(a: Scalar, phi: Scalar, last: float) -> Scalar:
+    """k = (1 + sin alpha_h) / 2, alpha_h between the half vector and (n_x, 0, n_z); 3/4 beyond the last picture."""
+    return where(phi > last, 0.75, 0.5 + 0.5 * abs(sin(a - 0.5 * phi)))
+
+
+def monotone(a: Scalar, phi: Scalar, last: float) -> Scalar:
+    """k = (1 - s^3) / 2, s from -1 at the shadow's edge over 0 at the half vector to 1 at the limb: each of the three
+    lands on its like in either picture, so that no normal ever turns out of sight."""
+    s = clip((a - 0.5 * phi) / maximum(0.5 * pi - 0.5 * phi, NARROWEST), -1.0, 1.0)
+    return 0.5 - 0.5 * s * s * s
+
+
+BLENDS: dict[str, Rule] = {"full": full, "half": half, "paper": paper, "monotone": monotone}
+"""Every rule by name."""
+
+
+def blend_rule(name: str) -> Rule:
+    """The rule of that name. Raises UnknownNameError."""
+    if name not in BLENDS:
+        raise UnknownNameError("blend", name, BLENDS)
+    return BLENDS[name]
+
+
+def neighbours(phi: Scalar, nodes: tuple[float, ...]) -> tuple[Scalar, Scalar, Scalar, Scalar]:
+    """The formula: the angles of the pictures next to `phi`, the number of the first, and the share of the second.
+
+    Beyond the last picture the share is 1, before the first 0.
+    """
+    first, second, number = 0.0 * phi + nodes[0], 0.0 * phi + nodes[1], 0.0 * phi
+    for i in range(1, len(nodes) - 1):
+        reached = phi >= nodes[i]
+        first = where(reached, nodes[i], first)
+        second = where(reached, nodes[i + 1], second)
+        number = where(reached, float(i), number)
+    return first, second, number, clip((phi - first) / (second - first), 0.0, 1.0)
