@@ -17,9 +17,10 @@ from brdf.reflectance import Reflectance
 from brdf.representations.bake import bake_points
 from brdf.representations.bases import HalfBasis, NormalBasis, cos_difference
 from brdf.representations.encoding import Encoding, Log, Plain, Root
+from brdf.representations.layout import Layout
 from brdf.representations.layouts import BASES, named_layout
 from brdf.representations.storage import STORAGES, storage
-from brdf.representations.table import Layout, Table
+from brdf.representations.table import Table
 
 HALF_PI = math.pi / 2
 WI, WO = random_directions(500, 1), random_directions(500, 2)
@@ -84,7 +85,7 @@ def test_half_angles_are_rusinkiewicz_rotations():
 def test_moves_nodes_above_the_horizon(basis):
     axes = [np.linspace(0, e, 20) for e in basis.extents]
     grid = np.meshgrid(*axes, indexing="ij")
-    wi, wo = basis.directions(*basis.above_horizon(*grid, 0.004))
+    wi, wo = basis.directions(*basis.above_horizon(*grid, margin=0.004))
     assert min(wi[..., 2].min(), wo[..., 2].min()) > 0
     kept_wi, kept_wo = basis.directions(*grid)
     clear = (kept_wi[..., 2] > 0.1) & (kept_wo[..., 2] > 0.1)

@@ -10,20 +10,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError, UnknownNameError
-from ..formula import Scalar, atan2, maximum, minimum, pow, sqrt, where
+from ..formula import Scalar, abs, atan2, floor, maximum, minimum, pow, sqrt, where
 
 HALF_PI = math.pi / 2
 
 
 class Angle(NamedTuple):
-    """An angle in [0, pi] as a formula knows it: `sine` >= 0 and `cosine`, of unit norm together."""
+    """An angle as a formula knows it: `sine` and `cosine`, of unit norm together.
+
+    In [0, pi], with `sine` >= 0, but for the axes of a whole circle (`Circle`, `TwoSided`).
+    """
 
     sine: Scalar
     cosine: Scalar
@@ -37,6 +40,8 @@ class Warp:
     """
 
     kinds: ClassVar[dict[str, type[Warp]]] = {}
+    periodic: ClassVar[bool] = False
+    """Whether coordinate 1 is coordinate 0 again."""
 
     extent: float = HALF_PI
 
@@ -72,6 +77,8 @@ def warp_from(state: Mapping[str, Any]) -> Warp:
     kind = numbers.pop("kind", None)
     if kind not in Warp.kinds:
         raise UnknownNameError("axis warp", str(kind), Warp.kinds)
+    if "half" in numbers:
+        numbers["half"] = warp_from(numbers["half"])
     return Warp.kinds[kind](**numbers)
 
 
@@ -173,3 +180,51 @@ class Bezier(Warp):
         # cos = t (2 - t), so that 1 - cos = (1 - t)^2 = 2 sin^2(angle / 2)
         near_pole = 2 * np.arcsin(np.clip((1 - t) / math.sqrt(2), 0, 1))
         return np.where(s >= 0, near_pole, math.pi - near_pole)
+
+
+@dataclass(frozen=True)
+class Circle(Warp):
+    """An azimuth of period `extent` (pi or 2 pi), evenly spaced: node i of n at extent i / n."""
+
+    periodic: ClassVar[bool] = True
+
+    extent: float = 2 * math.pi
+
+    def __post_init__(self) -> None:
+        if self.extent not in (math.pi, 2 * math.pi):
+            raise ParameterError(f"a circle's extent must be pi or 2 pi, got {self.extent:g}")
+
+    def coordinate(self, angle: Angle) -> Scalar:
+        turns = atan2(angle.sine, angle.cosine) * (1 / self.extent)
+        return turns - floor(turns)
+
+    def angle(self, coordinate: ArrayLike) -> NDArray[np.float64]:
+        return self.extent * np.asarray(coordinate, np.float64)
+
+    def nodes(self, count: int) -> NDArray[np.float64]:
+        return self.angle(np.arange(count) / count)
+
+
+@dataclass(frozen=True)
+class TwoSided(Warp):
+    """A warp of [0, pi] and its mirror image over [pi, 2 pi]; the last node is the first one again."""
+
+    extent: float = 2 * math.pi
+    half: Warp = field(default_factory=lambda: Power(math.pi))
+
+    def __post_init__(self) -> None:
+        if self.extent != 2 * math.pi or self.half.extent != math.pi or self.half.periodic:
+            raise ParameterError("a two-sided warp has extent 2 pi and is made of a warp of extent pi")
+
+    def coordinate(self, angle: Angle) -> Scalar:
+        share = 0.5 * self.half.coordinate(Angle(abs(angle.sine), angle.cosine))
+        return where(angle.sine < 0.0, 1.0 - share, share)
+
+    def angle(self, coordinate: ArrayLike) -> NDArray[np.float64]:
+        u = np.asarray(coordinate, np.float64)
+        near = self.half.angle(1 - np.abs(2 * u - 1))
+        return np.where(u > 0.5, 2 * math.pi - near, near)
+
+    @property
+    def state(self) -> dict[str, Any]:
+        return {"kind": type(self).__name__, "half": self.half.state}

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from ..errors import ReflectanceError
 from ..geometry.warps import Angle
 from ..reflectance import Reflectance
-from .table import Layout, Table
+from .layout import Layout
+from .table import Table
 
 Array = NDArray[np.floating[Any]]
 Validity = NDArray[np.bool_]
@@ -28,6 +29,11 @@ def require_isotropic(m: Reflectance) -> None:
         raise ReflectanceError(
             f"{m.name or type(m).__name__} is anisotropic; a table over three angles holds isotropic reflectances only"
         )
+    require_values(m)
+
+
+def require_values(m: Reflectance) -> None:
+    """Raises ReflectanceError for what no table can hold."""
     if m.transmits:
         raise ReflectanceError(f"{m.name or type(m).__name__} transmits; a table holds reflection only")
     if m.has_delta:
@@ -70,11 +76,11 @@ def bake_points(m: Reflectance, layout: Layout, floor_quantile: float | None = N
 
     Nodes below the horizon take the value just above it (interpolation needs them). With `floor_quantile` the encoding
     subtracts that quantile of the values (0: their minimum); see `evaluate` for
-    `symmetrise`. Raises ReflectanceError when `m` is not isotropic.
+    `symmetrise`. Raises ReflectanceError when `m` is not isotropic but the layout is.
     """
-    require_isotropic(m)
+    require_isotropic(m) if layout.basis.isotropic else require_values(m)
     at_nodes = layout.nodes()
-    angles = layout.basis.above_horizon(*at_nodes, HORIZON_MARGIN)
+    angles = layout.basis.above_horizon(*at_nodes, margin=HORIZON_MARGIN)
     wi, wo = layout.basis.directions(*angles)
     values, _ = evaluate(m, layout, wi, wo, symmetrise)
     floor = None

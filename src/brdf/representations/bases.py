@@ -1,7 +1,8 @@
-"""Table bases: which three angles of two directions a table runs over.
+"""Table bases: which angles of two directions a table runs over.
 
 A basis turns directions into angles as a formula, and angles into directions on NumPy arrays, to place a table's
-nodes. All of them are isotropic: turning both directions about the normal changes nothing.
+nodes. Those here are isotropic, with three angles: turning both directions about the normal changes nothing. Those of
+`anisotropic` have four.
 """
 
 from __future__ import annotations
@@ -31,26 +32,31 @@ class Basis:
     """Base of the bases; a subclass is a frozen dataclass and enters the registry by being defined."""
 
     kinds: ClassVar[dict[str, type[Basis]]] = {}
-    axes: ClassVar[tuple[str, str, str]]
+    axes: ClassVar[tuple[str, ...]]
 
     def __init_subclass__(cls, **kwargs: Any) -> None:
         super().__init_subclass__(**kwargs)
         Basis.kinds[cls.__name__] = cls
 
     @property
-    def extents(self) -> tuple[float, float, float]:
+    def isotropic(self) -> bool:
+        """Whether turning both directions about the normal leaves the angles as they are."""
+        return len(self.axes) == 3
+
+    @property
+    def extents(self) -> tuple[float, ...]:
         """The largest angle on each axis [rad]."""
         raise NotImplementedError
 
-    def angles(self, wi: Vec, wo: Vec) -> tuple[Angle, Angle, Angle]:
-        """The formula: the three angles of two directions."""
+    def angles(self, wi: Vec, wo: Vec) -> tuple[Angle, ...]:
+        """The formula: the angles of two directions."""
         raise NotImplementedError
 
-    def directions(self, first: Array, second: Array, third: Array) -> tuple[Array, Array]:
+    def directions(self, *angles: Array) -> tuple[Array, Array]:
         """(wi, wo), each (..., 3), of angles [rad] that broadcast."""
         raise NotImplementedError
 
-    def above_horizon(self, first: Array, second: Array, third: Array, margin: float) -> tuple[Array, Array, Array]:
+    def above_horizon(self, *angles: Array, margin: float) -> tuple[Array, ...]:
         """The nearest angles whose directions lie above the horizon by at least about `margin` [rad]."""
         raise NotImplementedError
 
@@ -85,7 +91,7 @@ class HalfBasis(Basis):
     Where theta_h or theta_d is 0, phi_d is not defined and taken as 0. Reference: Rusinkiewicz1998.
     """
 
-    axes: ClassVar[tuple[str, str, str]] = ("theta_h", "theta_d", "phi_d")
+    axes: ClassVar[tuple[str, ...]] = ("theta_h", "theta_d", "phi_d")
 
     fold: str = "half-turn"
 
@@ -94,10 +100,10 @@ class HalfBasis(Basis):
             raise ParameterError(f"fold must be 'half-turn' or 'quarter-turn', got {self.fold!r}")
 
     @property
-    def extents(self) -> tuple[float, float, float]:
+    def extents(self) -> tuple[float, ...]:
         return HALF_PI, HALF_PI, math.pi if self.fold == "half-turn" else HALF_PI
 
-    def angles(self, wi: Vec, wo: Vec) -> tuple[Angle, Angle, Angle]:
+    def angles(self, wi: Vec, wo: Vec) -> tuple[Angle, ...]:
         h, d = wi + wo, wi - wo
         h_length = length(h)
         theta_h = Angle(sqrt(h.x * h.x + h.y * h.y) / h_length, h.z / h_length)
@@ -105,16 +111,17 @@ class HalfBasis(Basis):
         sine = (wi.y * wo.x - wi.x * wo.y) / theta_d.cosine
         cosine = wo.z - wi.z
         cosine = where(sine < 0.0, -cosine, cosine) if self.fold == "half-turn" else abs(cosine)
-        return theta_h, theta_d, _azimuth(abs(sine), cosine)
+        return theta_h, theta_d, azimuth(abs(sine), cosine)
 
-    def directions(self, first: Array, second: Array, third: Array) -> tuple[Array, Array]:
-        theta_h, theta_d, phi_d = np.broadcast_arrays(first, second, third)
+    def directions(self, *angles: Array) -> tuple[Array, Array]:
+        theta_h, theta_d, phi_d = np.broadcast_arrays(*angles)
         across = np.sin(theta_d) * np.cos(phi_d)
         h = np.cos(theta_d)[..., None] * np.stack([np.sin(theta_h), 0 * theta_h, np.cos(theta_h)], -1)
         d = np.stack([across * np.cos(theta_h), np.sin(theta_d) * np.sin(phi_d), -across * np.sin(theta_h)], -1)
         return h + d, h - d
 
-    def above_horizon(self, first: Array, second: Array, third: Array, margin: float) -> tuple[Array, Array, Array]:
+    def above_horizon(self, *angles: Array, margin: float) -> tuple[Array, ...]:
+        first, second, third = angles
         first = np.minimum(first, HALF_PI - 2 * margin)
         last = np.arctan2(np.cos(first), np.sin(first) * np.abs(np.cos(third)))
         return first, np.minimum(second, last - margin), third
@@ -132,24 +139,25 @@ class NormalBasis(Basis):
     The fold assumes mirror symmetry; phi_delta = 0 is retroreflection, pi the mirror direction.
     """
 
-    axes: ClassVar[tuple[str, str, str]] = ("theta_i", "theta_o", "phi_delta")
+    axes: ClassVar[tuple[str, ...]] = ("theta_i", "theta_o", "phi_delta")
 
     @property
-    def extents(self) -> tuple[float, float, float]:
+    def extents(self) -> tuple[float, ...]:
         return HALF_PI, HALF_PI, math.pi
 
-    def angles(self, wi: Vec, wo: Vec) -> tuple[Angle, Angle, Angle]:
+    def angles(self, wi: Vec, wo: Vec) -> tuple[Angle, ...]:
         theta_i = Angle(sqrt(wi.x * wi.x + wi.y * wi.y), wi.z)
         theta_o = Angle(sqrt(wo.x * wo.x + wo.y * wo.y), wo.z)
-        return theta_i, theta_o, _azimuth(abs(wi.x * wo.y - wi.y * wo.x), wi.x * wo.x + wi.y * wo.y)
+        return theta_i, theta_o, azimuth(abs(wi.x * wo.y - wi.y * wo.x), wi.x * wo.x + wi.y * wo.y)
 
-    def directions(self, first: Array, second: Array, third: Array) -> tuple[Array, Array]:
-        theta_i, theta_o, phi = np.broadcast_arrays(first, second, third)
+    def directions(self, *angles: Array) -> tuple[Array, Array]:
+        theta_i, theta_o, phi = np.broadcast_arrays(*angles)
         wi = np.stack([np.sin(theta_i), 0 * theta_i, np.cos(theta_i)], -1)
         wo = np.stack([np.sin(theta_o) * np.cos(phi), np.sin(theta_o) * np.sin(phi), np.cos(theta_o)], -1)
         return wi, wo
 
-    def above_horizon(self, first: Array, second: Array, third: Array, margin: float) -> tuple[Array, Array, Array]:
+    def above_horizon(self, *angles: Array, margin: float) -> tuple[Array, ...]:
+        first, second, third = angles
         return np.minimum(first, HALF_PI - margin), np.minimum(second, HALF_PI - margin), third
 
     def images(self, wi: Array, wo: Array) -> list[tuple[Array, Array]]:
@@ -162,7 +170,7 @@ def cos_difference(wi: Vec, wo: Vec) -> Scalar:
     return 0.5 * sqrt(dot(h, h))
 
 
-def _azimuth(sine: Scalar, cosine: Scalar) -> Angle:
+def azimuth(sine: Scalar, cosine: Scalar) -> Angle:
     """The angle of a pair of any length; 0 where it has none."""
     norm = sqrt(sine * sine + cosine * cosine)
     defined = norm > _DEGENERATE

@@ -19,7 +19,8 @@ from ..reflectance import Reflectance
 from .bake import require_isotropic
 from .bases import HalfBasis
 from .encoding import Encoding
-from .table import Layout, Table
+from .layout import Layout
+from .table import Table
 
 BINS = (90, 90, 180)
 """Bins over theta_h, theta_d, phi_d."""

@@ -16,7 +16,8 @@ from ..reflectance import Reflectance
 from .bake import bake_least_squares, bake_points
 from .bases import HalfBasis
 from .encoding import Encoding, Log
-from .table import Layout, Table
+from .layout import Layout
+from .table import Table
 
 BUDGETS: dict[str, tuple[int, int, int]] = {"16K": (64, 8, 8), "64K": (96, 12, 14), "256K": (256, 16, 16)}
 """Nodes over theta_h, theta_d, phi_d for so many bytes at 4 bytes a node."""

@@ -1,4 +1,4 @@
-"""One class for every gridded reflectance: a grid of nodes over three angles, linearly interpolated.
+"""One class for every gridded reflectance: a grid of nodes over three or four angles, interpolated.
 
 What distinguishes a measured MERL table, the tables of papers and a 16 KB slice stack is data here: the basis (which
 angles), a warp for each axis (where the nodes lie), the encoding (what is stored in place of f), and the storage
@@ -8,77 +8,25 @@ angles), a warp for each axis (where the nodes lie), the encoding (what is store
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import BrdfError, ReflectanceError
-from ..formula import Scalar, Vec, texture3d
-from ..formula.backends import backend_of
-from ..formula.textures import lookup
+from ..errors import BrdfError
+from ..formula import Vec
 from ..geometry.arguments import broadcast_directions
-from ..geometry.warps import Angle, Warp, warp_from
 from ..reflectance import Reflectance
-from .bases import Basis, basis_from, cos_difference
-from .encoding import Encoding, encoding_from
+from .bases import cos_difference
+from .layout import Layout, layout_from
 from .storage import storage
 
 Array = NDArray[np.floating[Any]]
 
 
-@dataclass(frozen=True)
-class Layout:
-    """How a table is laid out: everything but its numbers.
-
-    The nodes of each axis sit at its ends (vertex-centred): node i of n has the warp's coordinate i / (n - 1).
-    """
-
-    basis: Basis
-    warps: tuple[Warp, ...]
-    shape: tuple[int, ...]
-    encoding: Encoding
-    storage: str = "float32"
-
-    def __post_init__(self) -> None:
-        if len(self.shape) != 3 or len(self.warps) != 3 or min(self.shape) < 2:
-            raise ReflectanceError(
-                f"a table has three axes of at least 2 nodes and a warp for each, got shape {self.shape}"
-            )
-        storage(self.storage)
-
-    def nodes(self) -> tuple[Array, Array, Array]:
-        """The angles [rad] of the nodes, shaped to broadcast over the grid: (n, 1, 1), (1, n, 1), (1, 1, n)."""
-        first, second, third = (warp.nodes(n) for warp, n in zip(self.warps, self.shape, strict=True))
-        return first[:, None, None], second[None, :, None], third[None, None, :]
-
-    def texture_coordinates(self, angles: tuple[Angle, Angle, Angle]) -> list[Scalar]:
-        """The formula: texture coordinates that put node i at the centre of texel i."""
-        axes = zip(self.warps, angles, self.shape, strict=True)
-        return [(warp.coordinate(angle) * (n - 1) + 0.5) * (1 / n) for warp, angle, n in axes]
-
-    @property
-    def state(self) -> dict[str, Any]:
-        return {
-            "basis": self.basis.state,
-            "warps": [warp.state for warp in self.warps],
-            "shape": list(self.shape),
-            "encoding": self.encoding.state,
-            "storage": self.storage,
-        }
-
-
-def layout_from(state: Mapping[str, Any]) -> Layout:
-    """The layout that `Layout.state` describes. May raise any error for a broken description."""
-    warps = tuple(map(warp_from, state["warps"]))
-    shape = tuple(map(int, state["shape"]))
-    return Layout(basis_from(state["basis"]), warps, shape, encoding_from(state["encoding"]), state["storage"])
-
-
 class Table(Reflectance):
-    """f = decode(texture(angles(wi, wo))): a grid of nodes over three angles, interpolated linearly.
+    """f = decode(texture(angles(wi, wo))): a grid of nodes over three angles, or four where anisotropic.
 
     `codes` are the stored numbers (see `storage`), `constants` the (3,) arrays that go with them: `floor` where the
     encoding uses one, `low` and `span` for packed storage. `measured`, if given, says for each node (shape of the
@@ -99,10 +47,11 @@ class Table(Reflectance):
         self.layout = layout
         self._codes = codes
         self._values = {k: np.asarray(v, np.float64) for k, v in (constants or {}).items()}
-        self._textures = {"grid": storage(layout.storage).texels(codes)}
+        texels = storage(layout.storage).texels(codes)
         self._measured = measured
-        if self._textures["grid"].shape != (*layout.shape, 3):
+        if texels.shape != (*layout.shape, 3):
             raise ValueError(f"codes {codes.shape} {codes.dtype} do not fill a grid of shape {layout.shape}")
+        self._textures = {"grid": texels if layout.basis.isotropic else texels.reshape(*layout.texture_shape, 3)}
         expected = {*storage(layout.storage).constants, *(("floor",) if "floor" in self._values else ())}
         if set(self._values) != expected or any(v.shape != (3,) for v in self._values.values()):
             raise ValueError(f"constants must be (3,) arrays {sorted(expected)}, got {sorted(self._values)}")
@@ -128,14 +77,16 @@ class Table(Reflectance):
         m: Reflectance,
         basis: str = "half",
         warp: str = "bezier",
-        shape: tuple[int, int, int] = (64, 64, 16),
+        shape: tuple[int, ...] = (64, 64, 16),
         storage: str = "half",
     ) -> Table:
         """`m` evaluated at the nodes of a grid; nodes below the horizon repeat the last value above it.
 
         `basis` is "half" (theta_h, theta_d, phi_d), stored as ln(f + 1e-3), or "normal" (theta_i, theta_o, phi_delta),
         stored as f; `warp` is "uniform", "bezier" or "identity" (even cosines; the normal basis alone) or "merl" (the
-        half basis alone). Raises ReflectanceError for an anisotropic `m`, UnknownNameError for a name.
+        half basis alone). With four numbers in `shape`, the first for the azimuth (phi_h or phi_i), the table is
+        anisotropic; phi_d then covers half a turn and phi_delta a whole one. Raises ReflectanceError for an anisotropic
+        `m` and three numbers, UnknownNameError for a name.
         """
         from .bake import bake_points
         from .layouts import named_layout
@@ -158,10 +109,14 @@ class Table(Reflectance):
 
     def f(self, wi: Vec, wo: Vec) -> Vec:
         layout = self.layout
-        texel = texture3d(self.grid, *layout.texture_coordinates(layout.basis.angles(wi, wo)))
+        texel = layout.fetch(self.grid, layout.basis.angles(wi, wo))
         stored = storage(layout.storage).value(texel, self)
         floor = self.floor if "floor" in self._values else 0.0
         return layout.encoding.decode(stored, cos_difference(wi, wo), floor)
+
+    @property
+    def isotropic(self) -> bool:
+        return self.layout.basis.isotropic
 
     @property
     def nbytes(self) -> int:
@@ -199,14 +154,13 @@ class Table(Reflectance):
         if self._measured is not None:
             with np.errstate(all="ignore"):
                 angles = self.layout.basis.angles(Vec(*wi.T), Vec(*wo.T))
-                coordinates = self.layout.texture_coordinates(angles)
-                share = lookup(self._mask_texels, tuple(coordinates), backend_of(wi))[0]
+                share = self.layout.fetch(self._mask_texels, angles)[0]
             above &= share >= 0.5
         return above.reshape(shape)
 
     @cached_property
     def _mask_texels(self) -> NDArray[np.bool_]:
-        return self.measured[..., None]
+        return self.measured.reshape(*self.layout.texture_shape, 1)
 
     # ---- storage -----------------------------------------------------------------------------------------------
 

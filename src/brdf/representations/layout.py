@@ -1,0 +1,105 @@
+"""How a table is laid out: which angles, where the nodes lie, what is stored, how it is read between nodes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ReflectanceError
+from ..formula import Scalar, Vec, floor, mix, texture3d, where
+from ..geometry.warps import Angle, Warp, warp_from
+from .bases import Basis, basis_from
+from .encoding import Encoding, encoding_from
+from .storage import storage
+
+Array = NDArray[np.floating[Any]]
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Everything of a table but its numbers.
+
+    The nodes of an axis sit at its ends (vertex-centred): node i of n has the warp's coordinate i / (n - 1). The
+    azimuth of an anisotropic basis is a circle: there it is i / n. Such a grid of four axes lies in a texture of three,
+    one isotropic grid after the other along the first axis, which is how it lies in memory anyway; it is read by two
+    trilinear lookups and a mix.
+    """
+
+    basis: Basis
+    warps: tuple[Warp, ...]
+    shape: tuple[int, ...]
+    encoding: Encoding
+    storage: str = "float32"
+
+    def __post_init__(self) -> None:
+        axes = self.basis.axes
+        if not len(axes) == len(self.warps) == len(self.shape) or min(self.shape) < 2:
+            raise ReflectanceError(
+                f"a table over {', '.join(axes)} has {len(axes)} axes of at least 2 nodes and a warp for each, "
+                f"got shape {self.shape} and {len(self.warps)} warps"
+            )
+        if [warp.periodic for warp in self.warps] != [not self.basis.isotropic, False, False, False][-len(axes) :]:
+            raise ReflectanceError("the azimuth of a table over four angles, and nothing else, lies on a Circle")
+        if not self.basis.isotropic and self.warps[0].extent != self.basis.extents[0]:
+            raise ReflectanceError(f"the azimuth's circle must have extent {self.basis.extents[0]:g}, as its basis")
+        storage(self.storage)
+
+    @property
+    def texture_shape(self) -> tuple[int, ...]:
+        """The three axes of the texture that holds the grid."""
+        return math.prod(self.shape[:-2]), *self.shape[-2:]
+
+    def nodes(self) -> tuple[Array, ...]:
+        """The angles [rad] of the nodes, shaped to broadcast over the grid: (n, 1, 1), (1, n, 1), (1, 1, n)."""
+        axes = [warp.nodes(n) for warp, n in zip(self.warps, self.shape, strict=True)]
+        return tuple(np.meshgrid(*axes, indexing="ij", sparse=True))
+
+    def positions(self, angles: tuple[Angle, ...]) -> list[Scalar]:
+        """The formula: where angles lie between the nodes: i at node i, up to n - 1, or up to n around a circle."""
+        axes = zip(self.warps, angles, self.shape, strict=True)
+        return [warp.coordinate(angle) * (n if warp.periodic else n - 1) for warp, angle, n in axes]
+
+    def texture_coordinates(self, angles: tuple[Angle, ...]) -> list[Scalar]:
+        """The formula for three axes: texture coordinates that put node i at the centre of texel i."""
+        return _coordinates(self.positions(angles), self.shape)
+
+    def fetch(self, grid: Any, angles: tuple[Angle, ...]) -> Vec:
+        """The formula: the channels of a texture of `texture_shape`, interpolated at angles."""
+        positions = self.positions(angles)
+        if self.basis.isotropic:
+            return texture3d(grid, *_coordinates(positions, self.shape))
+        turn, first, *others = positions
+        count, rows = self.shape[:2]
+        below = floor(turn)
+        slices = [where(index < count - 0.5, index, index - count) for index in (below, below + 1.0)]
+        low, high = (
+            texture3d(grid, *_coordinates([index * rows + first, *others], self.texture_shape)) for index in slices
+        )
+        value: Vec = mix(low, high, turn - below)
+        return value
+
+    @property
+    def state(self) -> dict[str, Any]:
+        return {
+            "basis": self.basis.state,
+            "warps": [warp.state for warp in self.warps],
+            "shape": list(self.shape),
+            "encoding": self.encoding.state,
+            "storage": self.storage,
+        }
+
+
+def layout_from(state: Mapping[str, Any]) -> Layout:
+    """The layout that `Layout.state` describes. May raise any error for a broken description."""
+    warps = tuple(map(warp_from, state["warps"]))
+    shape = tuple(map(int, state["shape"]))
+    return Layout(basis_from(state["basis"]), warps, shape, encoding_from(state["encoding"]), state["storage"])
+
+
+def _coordinates(positions: list[Scalar], shape: tuple[int, ...]) -> list[Scalar]:
+    return [(position + 0.5) * (1 / n) for position, n in zip(positions, shape, strict=True)]
