@@ -19,11 +19,12 @@ from brdf.representations.bases import HalfBasis, NormalBasis, cos_difference
 from brdf.representations.encoding import Encoding, Log, Plain, Root
 from brdf.representations.layout import Layout
 from brdf.representations.layouts import BASES, named_layout
-from brdf.representations.storage import STORAGES, storage
+from brdf.representations.storage import STORAGES, UNSIGNED, storage
 from brdf.representations.table import Table
 
 HALF_PI = math.pi / 2
 WI, WO = random_directions(500, 1), random_directions(500, 2)
+SIGNED = [name for name in STORAGES if name not in UNSIGNED]
 NAMED = [(basis, warp) for basis, (_, warps, _) in BASES.items() for warp in warps]
 
 
@@ -204,26 +205,26 @@ def test_half_storage_clips_what_it_cannot_hold():
     np.testing.assert_array_equal(codes, [[65504, 1, -65504]])
 
 
-@pytest.mark.parametrize("name", STORAGES)
+@pytest.mark.parametrize("name", SIGNED)
 def test_storages_agree_on_a_table(name):
     m = Lambertian(albedo=0.3) + GGX(alpha=0.4)
     layout = dataclasses.replace(named_layout("half", "merl", (12, 10, 6), "float32"), storage=name)
     exact, stored = Table.bake(m, "half", "merl", (12, 10, 6), "float32"), bake_points(m, layout)
     clear = (WI[:, 2] > 0.1) & (WO[:, 2] > 0.1)
-    np.testing.assert_allclose(stored(WI, WO)[clear], exact(WI, WO)[clear], rtol=0.012)
+    np.testing.assert_allclose(stored(WI, WO)[clear], exact(WI, WO)[clear], rtol=0.05 if name == "8-8-8" else 0.012)
 
 
 def test_bytes_count_what_is_stored():
     m = Lambertian()
-    sizes = {name: Table.bake(m, shape=(4, 5, 6), storage=name).nbytes for name in STORAGES}
-    assert sizes == {"float32": 12 * 120, "half": 6 * 120, "10-10-10": 4 * 120 + 4 * 6}
+    sizes = {name: Table.bake(m, shape=(4, 5, 6), storage=name).nbytes for name in SIGNED}
+    assert sizes == {"float32": 12 * 120, "half": 6 * 120, "10-10-10": 4 * 120 + 4 * 6, "8-8-8": 3 * 120 + 4 * 6}
 
 
 # ---- saving, refusing --------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(("basis", "warp"), NAMED)
-@pytest.mark.parametrize("name", STORAGES)
+@pytest.mark.parametrize("name", SIGNED)
 def test_saved_and_restored_is_the_same(tmp_path, basis, warp, name):
     table = Table.bake(Lambertian(albedo=0.3) + GGX(alpha=0.4), basis, warp, (6, 5, 4), name).named("t", "made up")
     table.save(tmp_path / "t.safetensors")
