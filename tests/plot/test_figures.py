@@ -8,9 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
 
 import brdf
-from brdf import models, plot, profiles
+from brdf import metrics, models, plot, profiles
 from brdf.color import srgb_encode
 from brdf.errors import ParameterError, ReflectanceError, UnknownFormatError
 
@@ -25,6 +27,9 @@ DRAWN = {
     "overview of two": lambda: plot.overview([SHINY, DIFFUSE]),
     "solid": lambda: plot.solid(SHINY, size=31),
     "spheres": lambda: plot.spheres([SHINY, DIFFUSE], size=32),
+    "comparison": lambda: plot.comparison(SHINY, DIFFUSE, size=32),
+    "comparison of four": lambda: plot.comparison(SHINY, DIFFUSE, SHINY, DIFFUSE, size=32),
+    "comparison with black": lambda: plot.comparison(models.Lambertian(albedo=0), DIFFUSE, size=32),
     "fresnel": plot.fresnel,
     "white-out": lambda: plot.white_out(size=40),
     "profile": lambda: plot.profile(BURLEY),
@@ -138,3 +143,55 @@ def test_bad_input(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
     with pytest.raises(ParameterError, match="a figure shows 1 to 6 materials, got 7"):
         plot.lobes([DIFFUSE] * 7)
+
+
+def test_a_comparison_shows_spheres_differences_and_errors_by_angle() -> None:
+    darker = models.Lambertian(albedo=0.48).named("darker")
+    figure = plot.comparison(DIFFUSE, darker, SHINY, size=32)
+    spheres = [axes for axes in figure.axes if axes.images and not axes.axison]
+    assert len(spheres) == 5 * 5  # the reference, and two rows for each of the others
+    pixel = [[axes.images[0].get_array()[16, 18] for axes in spheres[5 * row : 5 * row + 5]] for row in range(3)]
+    np.testing.assert_allclose(pixel[2], np.clip(10 * np.abs(np.subtract(pixel[0], pixel[1])), 0, 1), atol=1e-6)
+    corner = np.stack([axes.images[0].get_array()[0, 0] for axes in spheres])
+    np.testing.assert_allclose(corner, 1, atol=1e-6)
+    psnr, delta_e = (axes for axes in figure.axes if axes.lines)
+    expected = metrics.compare(DIFFUSE, darker)
+    np.testing.assert_allclose(psnr.lines[0].get_ydata(), expected.psnr_by_angle)
+    np.testing.assert_allclose(delta_e.lines[1].get_ydata(), metrics.compare(DIFFUSE, SHINY).delta_e_by_angle)
+    assert [text.get_text() for text in psnr.get_legend().get_texts()] == ["darker", "GGX"]
+    maps = [axes for axes in figure.axes if axes.images and axes.axison]
+    np.testing.assert_allclose(maps[0].images[0].get_array(), metrics.error_map(DIFFUSE, darker))
+
+
+def test_identical_materials_are_said_to_be_identical() -> None:
+    texts = [t.get_text() for axes in plot.comparison(DIFFUSE, DIFFUSE, size=16).axes for t in axes.texts]
+    assert texts == ["identical at every angle"]
+
+
+def test_no_text_of_a_comparison_leaves_the_page_or_meets_another() -> None:
+    long = models.GGX(alpha=0.2).named("GGX:alpha=0.2,F0=1/.78/.34 + Lambertian:albedo=.3")
+    for others in ([long], [long, DIFFUSE, SHINY, long]):
+        figure = plot.comparison(SHINY, *others, size=16)
+        figure.draw_without_rendering()
+        renderer, page = FigureCanvasAgg(figure).get_renderer(), figure.bbox
+        beyond = {  # ticks outside the axis' range exist and are not drawn
+            tick.label1
+            for axes in figure.axes
+            for axis in (axes.xaxis, axes.yaxis)
+            for tick in axis.get_major_ticks()
+            if not min(axis.get_view_interval()) <= tick.get_loc() <= max(axis.get_view_interval())
+        }
+        texts = (t for t in figure.findobj(match=Text) if t not in beyond)
+        shown = [t for t in texts if t.get_visible() and t.get_text().strip()]
+        boxes = [t.get_window_extent(renderer) for t in shown]
+        for text, box in zip(shown, boxes, strict=True):
+            assert page.x0 <= box.x0 <= box.x1 <= page.x1, text
+            assert page.y0 <= box.y0 <= box.y1 <= page.y1, text
+        for i, box in enumerate(boxes):
+            for k in range(i):
+                assert not box.shrunk(0.9, 0.9).overlaps(boxes[k].shrunk(0.9, 0.9)), (shown[i], shown[k])
+
+
+def test_a_comparison_with_nothing_or_too_much_is_refused() -> None:
+    with pytest.raises(ParameterError, match="1 to 6 materials beside the reference, got 0"):
+        plot.comparison(DIFFUSE)

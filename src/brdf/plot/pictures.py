@@ -39,7 +39,7 @@ def spheres(m: Materials, angles: Sequence[float] = (20, 70, 120), size: int = 1
     for row, angle in enumerate(angles):
         for column, one in enumerate(given):
             axes = grid[row, column]
-            axes.imshow(srgb_encode(_sphere(one, math.radians(angle), size)), interpolation="nearest")
+            axes.imshow(srgb_encode(sphere_picture(one, math.radians(angle), size)), interpolation="nearest")
             axes.set(xticks=[], yticks=[])
             axes.spines[:].set_visible(False)
             if row == 0:
@@ -86,17 +86,22 @@ def white_out(m: Reflectance | None = None, size: int = 200) -> Figure:
     return figure
 
 
-def _sphere(m: Reflectance, angle: float, size: int) -> Floats:
-    """(size, size, 3) radiance pi f cos of an orthographic sphere on white."""
-    axis = (2 * np.arange(size) + 1) / size - 1
-    x, y = np.meshgrid(axis, -axis)
-    inside = x * x + y * y < 1
+def sphere_picture(m: Reflectance, angle: float, size: int) -> Floats:
+    """(size, size, 3) radiance pi f cos of an orthographic sphere on white, the light `angle` [rad] from the viewer."""
+    x, y, inside = disc(size)
     z = np.sqrt(1 - x[inside] ** 2 - y[inside] ** 2)
     frames = _frames(np.stack([x[inside], y[inside], z], -1))
     wi, wo = frames @ np.array([math.sin(angle), 0.0, math.cos(angle)]), frames @ np.array([0.0, 0.0, 1.0])
     picture = np.ones((size, size, 3))
     picture[inside] = math.pi * m.f_cos(wi, wo)
     return picture
+
+
+def disc(size: int) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+    """x to the right and y upwards in [-1, 1] at the pixels of a picture (size, size), and which show the sphere."""
+    axis = (2 * np.arange(size) + 1) / size - 1
+    x, y = np.meshgrid(axis, -axis)
+    return x, y, x * x + y * y < 1
 
 
 def _landscape(size: int) -> Floats:

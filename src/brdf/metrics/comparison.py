@@ -1,0 +1,139 @@
+"""Reflectances compared in every metric: one with another, or several with one reference, the nearest first."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..errors import ParameterError
+from ..reflectance import Reflectance
+from . import sphere
+from .albedo import ALBEDO_ANGLES, directional_albedo
+from .pairs import METRICS, Array, direction_pairs
+from .sphere import SPHERE_SIZE, DeltaE
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """How far `other` is from `reference`."""
+
+    reference: str
+    other: str
+    psnr: float
+    """dB, pictures of a sphere, all lights pooled"""
+    psnr_by_angle: Array
+    """dB, the picture of each of `LIGHT_ANGLES` by itself"""
+    delta_e: DeltaE
+    """CIEDE2000 over the pixels of all pictures: mean and 95th percentile"""
+    delta_e_by_angle: Array
+    """mean CIEDE2000 over the pixels of each picture"""
+    relative_rmse: float
+    """linear pictures of a sphere"""
+    albedo_difference: float
+    """largest |difference| of directional albedo over channels and 0, 30, 60, 80 degrees"""
+    bytes: tuple[int, int]
+    """memory of reference and other"""
+    metrics: dict[str, float]
+    """metrics over pairs of directions by name (see `METRICS`)"""
+    pair: tuple[Reflectance, Reflectance]
+    """the two themselves"""
+
+    @property
+    def psnr_mean(self) -> float:
+        """Mean of `psnr_by_angle`."""
+        return float(self.psnr_by_angle.mean())
+
+    @property
+    def psnr_min(self) -> float:
+        """Least of `psnr_by_angle`."""
+        return float(self.psnr_by_angle.min())
+
+    def rows(self) -> list[tuple[str, str]]:
+        """(what, value) lines."""
+        return [
+            ("PSNR [dB]", f"{self.psnr:.1f}"),
+            ("PSNR of one light: mean", f"{self.psnr_mean:.1f}"),
+            ("PSNR of one light: least", f"{self.psnr_min:.1f}"),
+            ("ΔE2000: mean", f"{self.delta_e.mean:.3g}"),
+            ("ΔE2000: 95 % below", f"{self.delta_e.p95:.3g}"),
+            ("relative RMSE", f"{self.relative_rmse:.3g}"),
+            ("albedo difference", f"{self.albedo_difference:.3g}"),
+            *((name, f"{value:.3g}") for name, value in self.metrics.items()),
+            ("bytes", f"{self.bytes[0]:,} -> {self.bytes[1]:,}"),
+        ]
+
+    def table(self) -> str:
+        """A small text table."""
+        rows = self.rows()
+        width = max(len(what) for what, _ in rows)
+        lines = [f"{what:<{width}}  {value}" for what, value in rows]
+        return "\n".join([f"{self.reference} -> {self.other}", *lines])
+
+    def plot(self) -> Figure:
+        """Spheres, their difference, errors against the light's angle and over half and difference angle: the figure
+        `brdf.plot.comparison` draws."""
+        from ..plot import compared  # upwards in the layers, for this convenience alone: see [tool.importlinter]
+
+        return compared([self])
+
+
+class _Seen:
+    """What comparisons look at of one reflectance, computed once however many others it is compared with."""
+
+    def __init__(self, m: Reflectance, size: int) -> None:
+        self.m, self.size = m, size
+
+    @cached_property
+    def radiance(self) -> Array:
+        return sphere.sphere_radiance(self.m, self.size)
+
+    @cached_property
+    def albedos(self) -> Array:
+        return np.stack([directional_albedo(self.m, angle) for angle in ALBEDO_ANGLES])
+
+    @cached_property
+    def values(self) -> Array:
+        wi, wo, _ = direction_pairs()
+        return np.asarray(self.m.f_cos(wi, wo))
+
+
+def compare(a: Reflectance, b: Reflectance, size: int = SPHERE_SIZE) -> Comparison:
+    """How far `b` is from `a`, in every metric; `size` is the resolution of the sphere's pictures."""
+    return _compare(_Seen(a, size), _Seen(b, size))
+
+
+def rank(reference: Reflectance, others: Sequence[Reflectance], size: int = SPHERE_SIZE) -> list[Comparison]:
+    """How far each of `others` is from `reference`, the one with the highest PSNR first.
+
+    Raises ParameterError when there are none.
+    """
+    if not others:
+        raise ParameterError("nothing to compare with the reference; give at least one more reflectance")
+    seen = _Seen(reference, size)
+    return sorted((_compare(seen, _Seen(m, size)) for m in others), key=lambda c: (-c.psnr, c.relative_rmse))
+
+
+def _compare(a: _Seen, b: _Seen) -> Comparison:
+    radiances, lights = (a.radiance, b.radiance), sphere.sphere_lights(a.size)
+    squared, colours = sphere.squared_differences(*radiances), sphere.colour_differences(*radiances)
+    weight = direction_pairs().weight
+    return Comparison(
+        reference=a.m.name or type(a.m).__name__,
+        other=b.m.name or type(b.m).__name__,
+        psnr=float(sphere.decibels(squared.mean())),
+        psnr_by_angle=sphere.decibels(sphere.mean_by_light(squared.mean(1), lights)),
+        delta_e=sphere.pooled(colours),
+        delta_e_by_angle=sphere.mean_by_light(colours, lights),
+        relative_rmse=sphere.relative_rmse_of(*radiances),
+        albedo_difference=float(np.abs(a.albedos - b.albedos).max()),
+        bytes=(a.m.nbytes, b.m.nbytes),
+        metrics={name: metric(a.values, b.values, weight) for name, metric in METRICS.items()},
+        pair=(a.m, b.m),
+    )
