@@ -1,0 +1,12 @@
+"""Axis parameterisations: where the nodes of a table's axis lie."""
+
+from .base import HALF_PI, Angle, Warp, warp_from
+from .bezier import Bezier, identity
+from .circle import Circle, TwoSided
+from .powers import Chord, FarPower, Power, square_root, uniform
+from .spline import Spline
+
+__all__ = [
+    "HALF_PI", "Angle", "Bezier", "Chord", "Circle", "FarPower", "Power", "Spline", "TwoSided", "Warp", "identity",
+    "square_root", "uniform", "warp_from",
+]  # fmt: skip
