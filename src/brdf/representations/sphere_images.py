@@ -1,4 +1,4 @@
-"""An isotropic reflectance as a few pictures of a sphere under lights at different angles [DurikovicMihalik2015].
+"""An isotropic reflectance as a few pictures of a sphere under lights at different angles [Mihalik2015].
 
 The pictures show the radiance pi f cos(theta_i) of a unit sphere seen from afar; light and viewer span the horizontal
 plane. Any pair of directions has its place in such a picture: the angle between light and viewer chooses the two
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Self
 
 import numpy as np
@@ -19,9 +19,12 @@ from ..errors import ParameterError
 from ..formula import Scalar, Vec, atan2, cos, cross, dot, length, maximum, pi, sin, sqrt, texture3d, where
 from ..reflectance import Reflectance
 from .sphere_images_blends import blend_rule, neighbours
+from .sphere_images_separated import View, combined, measured_constants
 from .storage import storage
 
 Array = NDArray[np.floating[Any]]
+Fetch = Callable[[Scalar, Scalar, Scalar], Vec]
+"""(number of the picture, u, v) -> texel."""
 
 SHORTENING = 0.995
 """The paper's remedy for pictures on a black ground: normals are shortened, so that no lookup touches the ground."""
@@ -43,11 +46,14 @@ class SphereImages(Reflectance):
     so that perspective and point lights are exact; P drops z; k: see `sphere_images_blends`. Beyond the last picture it
     alone counts, turned by the same rule (the paper's: k = 3/4); before the first, the first.
 
-    Reciprocal only as far as the blend is exact: pictures are turned as the viewer sees them. Reference: DurikovicMihalik2015, equations 1 to 4.
+    Reciprocal only as far as the blend is exact: pictures are turned as the viewer sees them.
+    Reference: Mihalik2015, equations 1 to 4.
     """
 
     spheres: Any
-    """The texture, as `self` has it inside the formula."""
+    floor: Any
+    F0: Any
+    """The texture and the constants of "separated", as `self` has them inside the formula."""
 
     def __init__(
         self,
@@ -64,7 +70,7 @@ class SphereImages(Reflectance):
         """`images` (N, size, size, 3): linear radiance pi f cos(theta_i), top row (y near +1) first, x near -1 in the
         first column; `angles` (N,) [degrees] between light and viewer, increasing, in [0, 180).
 
-        `storage`: how the numbers are held, see `storage.STORAGES`; `blend`: "full", "half", "paper" or "monotone";
+        `storage`: how the numbers are held, see `storage.STORAGES`; `blend`: see `with_blend`;
         `dilated`: whether the texels around the disc repeat its limb instead of being black; for the other options
         see `with_blend`. Raises ParameterError, UnknownNameError.
         """
@@ -75,7 +81,7 @@ class SphereImages(Reflectance):
         self, codes: NDArray[Any], constants: Mapping[str, ArrayLike], store: str, angles: ArrayLike, dilated: bool
     ) -> None:
         self._codes, self._storage, self._dilated = codes, store, bool(dilated)
-        self._values = {name: np.asarray(value, np.float64) for name, value in constants.items()}
+        self._constants = {name: np.asarray(value, np.float64) for name, value in constants.items()}
         texels = storage(store).texels(codes)
         self._textures = {"spheres": texels}
         self._angles = checked_angles(angles, len(texels))
@@ -88,6 +94,8 @@ class SphereImages(Reflectance):
         if not 0 < shorten <= 1:
             raise ParameterError(f"shorten must lie in (0, 1], got {shorten!r}")
         self._blend = blend
+        measured = measured_constants(self.images, self._nodes) if blend == "separated" else {}
+        self._values = self._constants | measured
         self._options = {"shorten": float(shorten), "mask": bool(options["mask"]), "guard": bool(options["guard"])}
 
     @classmethod
@@ -114,13 +122,14 @@ class SphereImages(Reflectance):
         return made.named(m.name, f"{m.source or m.name}, baked as pictures of spheres")
 
     def with_blend(self, blend: str, **options: Any) -> Self:
-        """The same pictures under another rule, with options
+        """The same pictures under another rule: "full", "half", "paper" (Eq. 2, its halves, Eq. 4), "monotone" or
+        "separated" (see `sphere_images_blends` and `sphere_images_separated`), with options
 
         - `shorten`: factor on the normal, default 1, for pictures on black ground 0.995;
         - `mask`: in the fixed view (`fixed_view`), whether normals turned away from the light are black, default True;
           as a reflectance it always is;
         - `guard`: whether a picture in which the turned normal is out of sight leaves the pixel to the other one,
-          default True (it never happens with "monotone").
+          default True (it never happens with "monotone", and "separated" fades such pictures out in any case).
 
         Raises UnknownNameError, ParameterError.
         """
@@ -138,13 +147,17 @@ class SphereImages(Reflectance):
     def images(self) -> NDArray[np.float32]:
         """(N, size, size, 3) radiance as stored, decoded."""
         texels = self._textures["spheres"]
-        channels = storage(self._storage).value(Vec(*np.moveaxis(texels, -1, 0)), _Constants(self._values))
+        channels = storage(self._storage).value(Vec(*np.moveaxis(texels, -1, 0)), _Channels(self._constants))
         return np.stack(channels.components, -1).astype(np.float32)
 
     @property
     def angles(self) -> Array:
         """(N,) degrees between light and viewer."""
         return np.array(self._angles)
+
+    @property
+    def _nodes(self) -> tuple[float, ...]:
+        return tuple(map(math.radians, self._angles))
 
     @property
     def size(self) -> int:
@@ -172,7 +185,7 @@ class SphereImages(Reflectance):
     @property
     def nbytes(self) -> int:
         """The codes, and 4 bytes an angle and a constant."""
-        return self._codes.nbytes + 4 * (len(self._angles) + sum(v.size for v in self._values.values()))
+        return self._codes.nbytes + 4 * (len(self._angles) + sum(v.size for v in self._constants.values()))
 
     def __repr__(self) -> str:
         angles = ", ".join(f"{angle:g}" for angle in self._angles)
@@ -204,21 +217,29 @@ class SphereImages(Reflectance):
         f: Vec = radiance * (1.0 / (pi * maximum(wi.z, LEAST_COSINE)))
         return f
 
-    def radiance(self, n_x: Scalar, n_y: Scalar, n_z: Scalar, phi: Scalar) -> Vec:
-        """The formula: pi f cos(theta_i) of a normal seen from +z with the light at (sin phi, 0, cos phi)."""
+    def radiance(self, n_x: Scalar, n_y: Scalar, n_z: Scalar, phi: Scalar, fetch: Fetch | None = None) -> Vec:
+        """The formula: pi f cos(theta_i) of a normal seen from +z with the light at (sin phi, 0, cos phi).
+
+        `fetch` may stand in for `self.fetch`.
+        """
+        fetch, shorten = fetch or self.fetch, self._options["shorten"]
         a = atan2(n_x, n_z)
-        rho = sqrt(n_x * n_x + n_z * n_z) * self._options["shorten"]
-        v = 0.5 - 0.5 * self._options["shorten"] * n_y
-        nodes = tuple(math.radians(angle) for angle in self._angles)
-        first, second, number, t = neighbours(phi, nodes)
-        k = blend_rule(self._blend)(a, phi, nodes[-1])
+        rho = sqrt(n_x * n_x + n_z * n_z)
+        first, second, number, t = neighbours(phi, self._nodes)
+        k = blend_rule(self._blend)(a, phi, self._nodes[-1])
         a_1 = a + k * (first - phi)
         a_2 = a + k * (second - phi)
+        v = 0.5 - 0.5 * shorten * n_y
+        store = storage(self._storage)
+        value_1 = store.value(fetch(number, 0.5 + 0.5 * shorten * rho * sin(a_1), v), self)
+        value_2 = store.value(fetch(number + 1.0, 0.5 + 0.5 * shorten * rho * sin(a_2), v), self)
+        if self._blend == "separated":
+            view = View(a, rho, phi)
+            return combined((value_1, value_2), (a_1, a_2), (first, second), t, view, self.floor, self.F0)
         if self._options["guard"]:
             t = where(cos(a_1) < 0.0, 1.0, where(cos(a_2) < 0.0, 0.0, t))
-        texel_1 = self.fetch(number, 0.5 + 0.5 * rho * sin(a_1), v)
-        texel_2 = self.fetch(number + 1.0, 0.5 + 0.5 * rho * sin(a_2), v)
-        return storage(self._storage).value(texel_1 * (1.0 - t) + texel_2 * t, self)
+        radiance: Vec = value_1 * (1.0 - t) + value_2 * t
+        return radiance
 
     def fetch(self, number: Scalar, u: Scalar, v: Scalar) -> Vec:
         """The formula: picture `number` at u (left to right) and v (top to bottom) in [0, 1], filtered linearly."""
@@ -231,7 +252,7 @@ class SphereImages(Reflectance):
             "angles": list(self._angles),
             "storage": self._storage,
             "dilated": self._dilated,
-            "constants": {name: value.tolist() for name, value in self._values.items()},
+            "constants": {name: value.tolist() for name, value in self._constants.items()},
             "blend": self._blend,
             "options": self._options,
         }
@@ -245,8 +266,8 @@ class SphereImages(Reflectance):
         return made
 
 
-class _Constants:
-    """The constants of a storage, as channels."""
+class _Channels:
+    """(3,) constants of a storage as the formula has them."""
 
     def __init__(self, values: Mapping[str, Array]) -> None:
         self.__dict__.update({name: Vec(*value) for name, value in values.items()})

@@ -63,7 +63,7 @@ def sphere_pictures(m: Reflectance, angles: Sequence[float], size: int, dilate: 
 
 
 def sphere_radiance(m: Reflectance, x: Array, y: Array, phi: float) -> Array:
-    """(n, 3) radiance pi f cos(theta_i) of points (n,) x, y of the sphere seen from +z, light at (sin phi, 0, cos phi)."""
+    """(n, 3) radiance pi f cos(theta_i) of the sphere's points (n,) x, y; viewer +z, light (sin phi, 0, cos phi)."""
     z = np.sqrt(np.maximum(1 - x * x - y * y, 0))
     r = np.hypot(x, y)
     at_pole = r < 1e-9  # where any azimuth will do

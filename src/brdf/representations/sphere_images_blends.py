@@ -41,8 +41,8 @@ def monotone(a: Scalar, phi: Scalar, last: float) -> Scalar:
     return 0.5 - 0.5 * s * s * s
 
 
-BLENDS: dict[str, Rule] = {"full": full, "half": half, "paper": paper, "monotone": monotone}
-"""Every rule by name."""
+BLENDS: dict[str, Rule] = {"full": full, "half": half, "paper": paper, "monotone": monotone, "separated": half}
+"""Every rule by name; for what "separated" does beyond turning the normal see `sphere_images_separated`."""
 
 
 def blend_rule(name: str) -> Rule:

@@ -147,7 +147,8 @@ class StandardBytes:
 
     def texels(self, codes: NDArray[Any]) -> NDArray[np.float32]:
         _require_bytes(codes)
-        return np.asarray(srgb_decode(np.arange(256) / 255), np.float32)[codes]
+        decoded: NDArray[np.float32] = np.asarray(srgb_decode(np.arange(256) / 255), np.float32)[codes]
+        return decoded
 
     def value(self, texel: Vec, constants: Any) -> Vec:
         return texel
