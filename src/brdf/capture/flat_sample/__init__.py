@@ -1,0 +1,1 @@
+"""Photographs of a flat sample under a lamp that moves along an arc."""
