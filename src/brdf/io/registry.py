@@ -38,6 +38,8 @@ class Format:
     writer: Callable[[Reflectance, Path], None] | None = None
     has_signature: bool = True
     """Without one, a file that nothing recognises is still read by its extension, so that the error names the fault."""
+    folder_file: str | None = None
+    """The file by which a folder is recognised, for a format that may be one."""
 
 
 class FormatInfo(NamedTuple):
@@ -82,14 +84,17 @@ def read(path: str | os.PathLike[str]) -> Reflectance:
 def write(reflectance: Reflectance, path: str | os.PathLike[str]) -> None:
     """Write in the format of the path's extension; the file is replaced whole or not at all.
 
-    Raises UnknownFormatError for an extension that no format writes, FileError when the place cannot be
-    written, ReflectanceError when the format cannot hold this reflectance.
+    A path that ends in a slash, or an existing folder, is written as a folder. Raises UnknownFormatError for an
+    extension that no format writes, FileError when the place cannot be written, ReflectanceError when the format cannot
+    hold this reflectance.
     """
+    is_folder = os.fspath(path).endswith(("/", os.sep)) or os.path.isdir(path)
     path = Path(path)
     extension = path.suffix.lower()
     writers = [f for f in _all() if f.writer is not None]
     for format_ in writers:
-        if extension in format_.extensions and format_.writer is not None:
+        fits = format_.folder_file is not None if is_folder else extension in format_.extensions
+        if fits and format_.writer is not None:
             return format_.writer(reflectance, path)
     given = f"no format is written with the extension {extension!r}" if extension else "the name has no extension"
     known = ", ".join(f"{f.extensions[0]} ({f.name})" for f in writers)
@@ -100,7 +105,7 @@ def format_of(path: str | os.PathLike[str]) -> Format:
     """The format that reads the file, by its content. Raises as `read`."""
     path = Path(path)
     if path.is_dir():
-        raise FileError(path, "is a folder; give a file.")
+        return _format_of_folder(path)
     if not path.exists():
         raise FileError(path, "no such file; check the path.")
     if not path.is_file():
@@ -127,3 +132,12 @@ def format_of(path: str | os.PathLike[str]) -> Format:
             return format_
     known = ", ".join(f"{f.name} ({' '.join(f.extensions)})" for f in readers)
     raise UnknownFormatError(path, f"its content is of no known format; read: {known}.")
+
+
+def _format_of_folder(path: Path) -> Format:
+    folders = [f for f in _all() if f.reader is not None and f.folder_file is not None]
+    for format_ in folders:
+        if (path / str(format_.folder_file)).is_file():
+            return format_
+    known = ", ".join(f"{f.folder_file} ({f.name})" for f in folders)
+    raise FileError(path, f"is a folder without {known}; give a file.")
