@@ -2,24 +2,28 @@
 
 from __future__ import annotations
 
+import inspect
 import os
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
 
 from . import io, metrics
 from .errors import ParameterError, UnknownNameError
 from .loading import load
 from .reflectance import Reflectance
 from .representations.slice_stack import SliceStack
+from .representations.sphere_images import SphereImages
 from .representations.table import Table
 
-DEFAULT_BUDGET = "16K"
-
-REPRESENTATIONS: dict[str, Callable[[Reflectance, str], Table]] = {
-    "slices": lambda m, budget: SliceStack.bake(m, budget=budget),
-    "table": lambda m, budget: Table.bake(m),
+REPRESENTATIONS: dict[str, Callable[..., Reflectance]] = {
+    "slice-stack": SliceStack.bake,
+    "sphere-images": SphereImages.bake,
+    "table": Table.bake,
 }
-"""What a reflectance can be baked to, by the name the command line uses; each takes it and a budget."""
+"""What a reflectance can be baked to, by name: functions of it and of their own options; the first is the default."""
+
+DEFAULT = next(iter(REPRESENTATIONS))
 
 
 class Conversion(NamedTuple):
@@ -31,36 +35,57 @@ class Conversion(NamedTuple):
     comparison: metrics.Comparison
     """how far `written` is from `source`"""
     file_bytes: int
-    """size of the file"""
+    """size of the file, or of all files of the folder"""
 
 
-def bake(m: Reflectance, to: str = "slices", budget: str | None = None) -> Table:
-    """`m` as "slices" or "table"; a budget ("16K", "64K", "256K") is for slices alone.
+def options_of(representation: str) -> frozenset[str]:
+    """The names of the options that baking to a representation takes. Raises UnknownNameError."""
+    if representation not in REPRESENTATIONS:
+        raise UnknownNameError("representation", representation, REPRESENTATIONS)
+    return frozenset([*inspect.signature(REPRESENTATIONS[representation]).parameters][1:])
 
-    Raises UnknownNameError, ParameterError, or ReflectanceError when the representation cannot hold `m`.
+
+def representation_for(options: Mapping[str, Any]) -> str:
+    """The default representation, or the only one that takes all these options."""
+    taking = [name for name in REPRESENTATIONS if options.keys() <= options_of(name)]
+    return taking[0] if len(taking) == 1 else DEFAULT
+
+
+def bake(m: Reflectance, representation: str | None = None, **options: Any) -> Reflectance:
+    """`m` as a "slice-stack", as "sphere-images" or as a "table", with the options of `SliceStack.bake`,
+    `SphereImages.bake` or `Table.bake`. Without a name as `representation_for` says.
+
+    Raises UnknownNameError; ParameterError for an option of another representation; whatever the representation's
+    `bake` raises.
     """
-    if to not in REPRESENTATIONS:
-        raise UnknownNameError("representation", to, REPRESENTATIONS)
-    if budget is not None and to != "slices":
-        raise ParameterError(f"a budget has no effect with {to!r}; it belongs to 'slices'")
-    baked = REPRESENTATIONS[to](m, budget or DEFAULT_BUDGET)
-    return baked.named(m.name, f"{to} of {m.source or m.name}")
+    chosen = representation or representation_for(options)
+    taken = options_of(chosen)
+    for option in options:
+        if option not in taken:
+            takers = [name for name in REPRESENTATIONS if option in options_of(name)]
+            belongs = f"it belongs to {' and '.join(takers)}" if takers else f"known: {', '.join(sorted(taken))}"
+            raise ParameterError(f"{option!r} has no effect with {chosen}; {belongs}")
+    baked = REPRESENTATIONS[chosen](m, **options)
+    return baked.named(m.name, f"{chosen} of {m.source or m.name}")
 
 
 def convert(
     source: str | os.PathLike[str] | Reflectance,
     target: str | os.PathLike[str],
-    to: str | None = None,
-    budget: str | None = None,
+    representation: str | None = None,
+    **options: Any,
 ) -> Conversion:
-    """Write `source` (whatever `brdf.load` takes) to the file `target`, in the format of its extension.
+    """Write `source` (whatever `brdf.load` takes) to `target`, in the format of its extension.
 
-    With `to` it is first baked (see `bake`). The file is read back and compared with the source. Raises as `load`,
-    `bake` and `io.write`.
+    With a representation or options it is first baked (see `bake`). What was written is read back and compared with the
+    source. Raises as `load`, `bake` and `io.write`.
     """
     m = source if isinstance(source, Reflectance) else load(source)
-    if to is None and budget is not None:
-        to = "slices"
-    io.write(m if to is None else bake(m, to, budget), target)
+    io.write(bake(m, representation, **options) if representation or options else m, target)
     written = io.read(target)
-    return Conversion(m, written, metrics.compare(m, written), os.path.getsize(target))
+    return Conversion(m, written, metrics.compare(m, written), _size(Path(target)))
+
+
+def _size(path: Path) -> int:
+    files = path.rglob("*") if path.is_dir() else [path]
+    return sum(file.stat().st_size for file in files if file.is_file())

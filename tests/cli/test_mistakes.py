@@ -261,6 +261,7 @@ def test_a_known_extension_with_other_content_is_refused(refused: Refused, tmp_p
         ["render", "GGX", *DRAFT, "-o"],
         ["show", "GGX", "--what", "lobes", "-o"],
         ["bake", "GGX", "-o"],
+        ["compare", "GGX", "Lambertian", "-o"],
         ["convert", "GGX"],
     ],
     ids=lambda command: command[0],
@@ -270,7 +271,7 @@ def test_an_output_that_cannot_be_written_is_named(
     refused: Refused, tmp_path: Path, command: list[str], place: str
 ) -> None:
     (tmp_path / "a-file").write_text("in the way")
-    extension = "" if place == "." else (".png" if command[0] in ("render", "show") else ".safetensors")
+    extension = "" if place == "." else (".png" if command[0] in ("render", "show", "compare") else ".safetensors")
     line = refused(*command, place + extension)
     assert "cannot be written" in line or "is a folder" in line or "no extension" in line or "choose one" in line
     assert sorted(os.listdir(tmp_path)) == ["a-file"]
@@ -289,9 +290,25 @@ def test_an_output_whose_name_is_too_long_is_named(refused: Refused, tmp_path: P
         (["convert", "GGX", "x.tiff"], "no format is written with the extension '.tiff'"),
         (["convert", "GGX", "x"], "the name has no extension"),
         (["show", "GGX", "-o", "x.gif9"], "x.gif9: figures are written as"),
-        (["bake", "GGX", "--budget", "17K"], "did you mean '16K'"),
-        (["bake", "GGX", "--to", "slice"], "did you mean 'slices'?"),
-        (["bake", "GGX", "--to", "table", "--budget", "16K"], "a budget has no effect with 'table'"),
+        (["bake", "GGX", "--as", "slicestack"], "did you mean 'slice-stack'?"),
+        (["bake", "GGX", "--as", "table", "--budget", "16K"], "'budget' has no effect with table; it belongs to slice"),
+        (
+            ["bake", "GGX", "--budget", "16K", "--angles", "metal"],
+            "'angles' has no effect with slice-stack; it belongs",
+        ),
+        (["bake", "GGX", "--storage", "half"], "'storage' has no effect with slice-stack; it belongs to sphere-images"),
+        (["bake", "GGX", "--angles", "0,x"], "--angles must be plastic, metal or degrees with commas"),
+        (["bake", "GGX", "--angles", "0,nan"], "--angles must be plastic, metal or degrees with commas"),
+        (["bake", "GGX", "--angles", "wood"], "wood"),
+        (["bake", "GGX", "--as", "sphere-images", "--size", "1"], "texels wide, got 1"),
+        (["bake", "GGX", "--as", "sphere-images", "--blend", "papr"], "did you mean 'paper'"),
+        (["bake", "Mirror"], "mirrors like a polished surface"),
+        (["convert", "GGX", "x.safetensors", "--as", "tabel"], "did you mean 'table'?"),
+        (["bake", "GGX", "-o", "balls/"], "balls/: is a folder; sphere-images alone are written as one"),
+        (["compare", "GGX"], "missing argument 'MATERIAL'"),
+        (["compare", "GGX", "Lambertain"], "did you mean 'Lambertian'"),
+        (["compare", "GGX", "Lambertian", "-o", "x.gif9"], "x.gif9: figures are written as"),
+        (["compare", "GGX", "Lambertian", "-o", "x.png", "--no-figure"], "exclude each other"),
         (["bake", "GGX:alpha_x=.1,alpha_y=.3"], "is anisotropic"),
     ],
 )

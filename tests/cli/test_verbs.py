@@ -245,26 +245,6 @@ def test_merl_to_safetensors_and_back_loses_nothing(brdf: Command) -> None:
     assert second["relative_rmse"] < 1e-6
 
 
-def test_convert_to_slices_keeps_the_budget(brdf: Command, tmp_path: Path) -> None:
-    sizes, quality = [], []
-    for budget in ("16K", "64K"):
-        done = json.loads(brdf("convert", "GGX:alpha=.2", "x.safetensors", "--budget", budget, "--json").out)
-        assert done["file_bytes"] == (tmp_path / "x.safetensors").stat().st_size
-        sizes.append(done["bytes"][1])
-        quality.append(done["psnr"])
-    assert 16_000 < sizes[0] < 17_000
-    assert 64_000 < sizes[1] < 66_000
-    assert quality[1] > quality[0] > 30
-
-
-def test_bake_names_its_file_after_the_material(brdf: Command, tmp_path: Path) -> None:
-    outcome = brdf("bake", "gold-metallic-paint")
-    path = tmp_path / "gold-metallic-paint-slices.safetensors"
-    assert str(path) in outcome.out
-    assert package.load(path).name == "gold-metallic-paint"
-    assert "PSNR" in outcome.out
-
-
 def test_rgl_to_merl(brdf: Command, data: Path) -> None:
     done = json.loads(brdf("convert", data / "rgl" / "chm_orange_rgb.bsdf", "orange.binary", "--json").out)
     assert done["psnr"] > 25

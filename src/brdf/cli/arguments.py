@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import copy
 import re
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -27,6 +29,18 @@ def load(spec: str) -> Reflectance:
     from ..loading import load
 
     return load(spec)
+
+
+def load_all(specs: Sequence[str]) -> list[Reflectance]:
+    """All of them, under names that differ: see `told_apart`."""
+    return told_apart([load(spec) for spec in specs], specs)
+
+
+def told_apart(named: list[Any], specs: Sequence[str]) -> list[Any]:
+    """The same; where names are missing or shared (by two fits of one material, say) under what they were made from."""
+    if all(m.name for m in named) and len({m.name for m in named}) == len(named):
+        return named
+    return [copy.copy(m).named(spec) for m, spec in zip(named, specs, strict=True)]
 
 
 def parse_size(text: str) -> tuple[int, int]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -68,6 +68,16 @@ class Comparison:
             *((name, f"{value:.3g}") for name, value in self.metrics.items()),
             ("bytes", f"{self.bytes[0]:,} -> {self.bytes[1]:,}"),
         ]
+
+    def numbers(self) -> dict[str, Any]:
+        """Everything as plain data, for JSON."""
+        return {
+            "reference": self.reference, "other": self.other, "bytes": list(self.bytes),
+            "psnr": self.psnr, "psnr_mean": self.psnr_mean, "psnr_min": self.psnr_min,
+            "psnr_by_angle": self.psnr_by_angle.tolist(), "delta_e": self.delta_e._asdict(),
+            "delta_e_by_angle": self.delta_e_by_angle.tolist(), "relative_rmse": self.relative_rmse,
+            "albedo_difference": self.albedo_difference, "metrics": dict(self.metrics),
+        }  # fmt: skip
 
     def table(self) -> str:
         """A small text table."""

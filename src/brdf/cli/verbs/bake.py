@@ -2,32 +2,47 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from .. import arguments
-from .convert import Budget, convert
+from ..baking import Angles, Anisotropic, As, Blend, Budget, Size, Storage, convert, given, representation_for
 
 
 def command(
     material: arguments.Material,
     out: Annotated[
-        Path | None, typer.Option("-o", "--output", help="File, .safetensors. [NAME-slices.safetensors]")
+        str | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="PATH",
+            help="A .safetensors file; for sphere images also folder/, .png, .exr. [NAME-KIND.safetensors]",
+        ),
     ] = None,
-    to: Annotated[str, typer.Option("--to", metavar="KIND", help="slices or table.")] = "slices",
+    representation: As = None,
     budget: Budget = None,
+    anisotropic: Anisotropic = False,
+    angles: Angles = None,
+    size: Size = None,
+    blend: Blend = None,
+    storage: Storage = None,
     json: arguments.AsJson = False,
 ) -> None:
     """Make a compact representation of a material.
 
-    By default a slice stack of 16 KB.
+    By default a slice stack of 16 KB. Prints what it costs, beside the material's own size, and how far it is from it.
 
     \b
     Examples:
       brdf bake gold-metallic-paint
       brdf bake measured.binary --budget 64K -o small.safetensors
+      brdf bake GGX:alpha_x=.1,alpha_y=.4 --anisotropic
+      brdf bake gold-metallic-paint --as sphere-images --angles metal
+      brdf bake gold-metallic-paint --as sphere-images --angles 0,60,120 -o gold/
     """
-    path = out or arguments.file_name(arguments.load(material), f"-{to}.safetensors")
-    convert(material, path, to, budget, json)
+    options = given(budget=budget, anisotropic=anisotropic, angles=angles, size=size, blend=blend, storage=storage)
+    m = arguments.load(material)
+    chosen = representation_for(representation, options)
+    convert(m, out or str(arguments.file_name(m, f"-{chosen}.safetensors")), chosen, options, json)

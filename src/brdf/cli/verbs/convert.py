@@ -2,60 +2,36 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
-from .. import arguments, output
-
-To = Annotated[
-    str | None, typer.Option("--to", metavar="KIND", help="Bake first: slices (16 to 256 KB) or table (half vector).")
-]
-Budget = Annotated[str | None, typer.Option(metavar="SIZE", help="Of the slices: 16K, 64K or 256K. [16K]")]
+from .. import arguments
+from ..baking import Angles, Anisotropic, As, Blend, Budget, Size, Storage, convert, given
 
 
 def command(
     source: arguments.Material,
-    out: Annotated[Path, typer.Argument(metavar="OUT", help="File; its extension is the format.")],
-    to: To = None,
+    out: Annotated[str, typer.Argument(metavar="OUT", help="File; its extension is the format. Or a folder/.")],
+    representation: As = None,
     budget: Budget = None,
+    anisotropic: Anisotropic = False,
+    angles: Angles = None,
+    size: Size = None,
+    blend: Blend = None,
+    storage: Storage = None,
     json: arguments.AsJson = False,
 ) -> None:
     """Write a material in another file format.
 
-    The file is read back and compared with the source, to say what was lost.
+    What was written is read back and compared with the source, to say what was lost. With --as, or an option of a
+    representation, it is baked first.
 
     \b
     Examples:
       brdf convert measured.binary measured.safetensors
       brdf convert measured.bsdf measured.binary
-      brdf convert measured.binary small.safetensors --to slices --budget 64K
+      brdf convert measured.binary small.safetensors --as slice-stack --budget 64K
     """
-    convert(source, out, to, budget, json)
-
-
-def convert(source: str, out: Path, to: str | None, budget: str | None, json: bool) -> None:
-    """Convert and print what it cost."""
-    from ...conversion import convert
-
-    m = arguments.load(source)
-    output.require_writable(out)
-    with output.working(f"writing {out.name}"):
-        done = convert(m, out, to=to, budget=budget)
-    comparison = done.comparison
-    if json:
-        numbers: dict[str, Any] = {
-            "file": str(out),
-            "file_bytes": done.file_bytes,
-            "bytes": list(comparison.bytes),
-            "psnr": comparison.psnr,
-            "relative_rmse": comparison.relative_rmse,
-            "albedo_difference": comparison.albedo_difference,
-            "metrics": comparison.metrics,
-        }
-        output.print_json(numbers)
-        return
-    print(out.resolve())
-    rows = [("file", output.format_bytes(done.file_bytes)), *comparison.rows()]
-    output.print_table(("", f"{comparison.reference} → {out.name}"), rows)
+    options = given(budget=budget, anisotropic=anisotropic, angles=angles, size=size, blend=blend, storage=storage)
+    convert(arguments.load(source), out, representation, options, json)

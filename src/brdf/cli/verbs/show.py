@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -72,8 +71,7 @@ def command(
         load_profile(spec) if is_profile else arguments.load(spec)
         for spec, is_profile in zip(materials, profiles, strict=True)
     ]
-    if len({m.name for m in drawn}) < len(drawn):  # two fits of one material, say
-        drawn = [copy.copy(m).named(spec) for m, spec in zip(drawn, materials, strict=True)]
+    drawn = arguments.told_apart(drawn, materials)
     if len(drawn) > 1 and what in SINGLE:
         raise ParameterError(f"--what {what} shows one material, {len(drawn)} were given")
     path = out or arguments.file_name(drawn[0], "-figure.png")
