@@ -13,6 +13,7 @@ __version__ = "0.1.0"
 _NAMES = {
     "BTF": "representations.btf",
     "Reflectance": "reflectance",
+    "ShadingMap": "representations.shading_map",
     "SphereImages": "representations.sphere_images",
     "SpatiallyVarying": "combinators",
     "TwoSided": "combinators",
@@ -32,6 +33,7 @@ _NAMES = {
     "plot": "plot",
     "profiles": "profiles",
     "render": "render",
+    "reproduce": "reproduce",
 }
 """Public name: the module it lives in, or is."""
 
