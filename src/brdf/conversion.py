@@ -83,9 +83,11 @@ def convert(
     m = source if isinstance(source, Reflectance) else load(source)
     io.write(bake(m, representation, **options) if representation or options else m, target)
     written = io.read(target)
-    return Conversion(m, written, metrics.compare(m, written), _size(Path(target)))
+    return Conversion(m, written, metrics.compare(m, written), bytes_on_disk(target))
 
 
-def _size(path: Path) -> int:
-    files = path.rglob("*") if path.is_dir() else [path]
+def bytes_on_disk(path: str | os.PathLike[str]) -> int:
+    """The size of a file, or of all files of a folder."""
+    place = Path(path)
+    files = place.rglob("*") if place.is_dir() else [place]
     return sum(file.stat().st_size for file in files if file.is_file())

@@ -91,8 +91,13 @@ def test_a_table_in_a_storage(brdf: Command) -> None:
 
 def test_what_was_baked_can_be_shown_and_described(brdf: Command) -> None:
     assert brdf("bake", "GGX:alpha=.3", "--as", "sphere-images", "--size", "32", "-o", "s.safetensors").code == 0
-    assert json.loads(brdf("info", "s.safetensors", "--json").out)["kind"] == "SphereImages"
-    assert brdf("info", "s.safetensors").code == 0
+    described = json.loads(brdf("info", "s.safetensors", "--json").out)
+    assert described["kind"] == "SphereImages"
+    assert described["pictures"] == {"angles": [0, 45, 90, 135], "size": 32, "storage": "half", "blend": "monotone"}
+    assert "32 x 32 for lights at 0°, 45°, 90°, 135° from the viewer" in brdf("info", "s.safetensors").out
+    assert brdf("convert", "s.safetensors", "folder/").code == 0
+    described = json.loads(brdf("info", "folder", "--json").out)["file"]
+    assert described["bytes"] == sum(f.stat().st_size for f in Path("folder").iterdir())
     assert brdf("show", "s.safetensors", "--what", "slices").code == 0
 
 

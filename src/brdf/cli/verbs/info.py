@@ -36,6 +36,7 @@ def command(material: arguments.Material, json: arguments.AsJson = False) -> Non
 
 def describe(m: Reflectance) -> dict[str, Any]:
     """Everything there is to say of a reflectance, as plain data."""
+    from ...representations.sphere_images import SphereImages
     from ...representations.table import Table
 
     doc = inspect.getdoc(type(m)) or ""
@@ -63,15 +64,20 @@ def describe(m: Reflectance) -> dict[str, Any]:
             "axes": list(m.layout.basis.axes), "shape": list(m.layout.shape), "storage": m.layout.storage,
             "invalid_share": 1 - float(m.measured.mean()),
         }  # fmt: skip
+    if isinstance(m, SphereImages):
+        described["pictures"] = {
+            "angles": m.angles.tolist(), "size": m.size, "storage": m.storage, "blend": m.blend,
+        }  # fmt: skip
     return described
 
 
 def _file(spec: str) -> dict[str, Any]:
     from ... import io
+    from ...conversion import bytes_on_disk
 
-    if not os.path.isfile(spec):
+    if not os.path.exists(spec):
         return {}
-    return {"file": {"path": spec, "format": io.format_of(spec).name, "bytes": os.path.getsize(spec)}}
+    return {"file": {"path": spec, "format": io.format_of(spec).name, "bytes": bytes_on_disk(spec)}}
 
 
 def _fits(spec: str) -> dict[str, Any]:
@@ -159,6 +165,11 @@ def _print(d: dict[str, Any], indent: str = "") -> None:
         sizes = " x ".join(f"{n} {axis}" for n, axis in zip(grid["shape"], grid["axes"], strict=True))
         line("grid", f"{sizes}, {grid['storage']}")
         line("invalid", f"{grid['invalid_share']:.1%} of the nodes")
+    if "pictures" in d:
+        pictures = d["pictures"]
+        angles = ", ".join(f"{angle:g}°" for angle in pictures["angles"])
+        line("pictures", f"{pictures['size']} x {pictures['size']} for lights at {angles} from the viewer")
+        line("stored as", f"{pictures['storage']}, blend {pictures['blend']}")
     if "wavelengths" in d:
         w = d["wavelengths"]
         line("wavelengths", f"{len(w)}, {w[0]:g} to {w[-1]:g} nm")
