@@ -169,7 +169,7 @@ def _draw_maps(page: _Page, comparisons: Sequence[Comparison], top: float, colum
 def _wrapped(m: Reflectance, width: int, lines: int) -> str:
     """The name on several lines, broken after punctuation where that is possible."""
     broken = [""]
-    for part in re.findall(rf".{{1,{width}}}?(?:[-_,:@+/ ]|$)|.{{1,{width}}}", name_of(m, width * lines)):
+    for part in re.findall(rf".{{1,{width}}}?(?:[-_,:@+/ ]|\.(?=[a-z])|$)|.{{1,{width}}}", name_of(m, width * lines)):
         if broken[-1] and len(broken[-1]) + len(part) > width:
             broken.append("")
         broken[-1] += part
