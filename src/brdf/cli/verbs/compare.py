@@ -33,7 +33,7 @@ def command(
     Examples:
       brdf compare gold-metallic-paint gold-metallic-paint@ngan_cooktorrance
       brdf compare measured.binary small.safetensors -o lost.svg
-      brdf compare chrome steel metal/Cr GGX:alpha=.02,F0=.55 --no-figure
+      brdf compare chrome steel nickel GGX:alpha=.02,F0=.55 --no-figure
       brdf compare measured.binary fitted.safetensors --json
     """
     from ...errors import ParameterError
