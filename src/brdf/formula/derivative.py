@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from ..errors import FormulaError
 from .graph import BOOLEAN_OPS, Expr, reachable
 
 
@@ -40,6 +41,8 @@ def derivative(outputs: Sequence[Expr], symbol: Expr) -> tuple[Expr, ...]:
 
 def _of_channel(fetch: Expr, channel: int, changes: Sequence[Expr]) -> Expr:
     """The derivative of one channel of a linear lookup, from those of its coordinates."""
+    if fetch.value.filter != "linear":
+        raise FormulaError(f"a {fetch.value.filter} lookup has no derivative; read the texture linearly")
     total = fetch.graph.constant(0.0)
     for axis, change in enumerate(changes):
         size = float(fetch.value.shape[axis])

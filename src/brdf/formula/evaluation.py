@@ -33,7 +33,9 @@ def evaluate(
                 known[node] = np.asarray(symbols[node.value], np.float64)
             case "texture":
                 coordinates = tuple(known[argument] for argument in node.args)
-                known[node] = lookup(textures[node.value.name], coordinates, backend_of(*coordinates))
+                known[node] = lookup(
+                    textures[node.value.name], coordinates, backend_of(*coordinates), node.value.filter
+                )
             case "channel":
                 known[node] = known[node.args[0]][node.value]
             case _:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Container, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NoReturn
 
 from ..errors import FormulaError
@@ -22,6 +22,8 @@ class TextureRef:
 
     name: str
     shape: tuple[int, ...]
+    filter: str = "linear"
+    """How a lookup reads it, see `textures`."""
     graph: Graph | None = field(default=None, compare=False, repr=False)
     """Where a lookup at a constant place becomes a node."""
 
@@ -180,10 +182,10 @@ class Graph:
         """An input: a component of a direction or of a parameter."""
         return self._make("symbol", value=name)
 
-    def texture(self, texture: TextureRef, *coordinates: Any) -> Vec:
+    def texture(self, texture: TextureRef, *coordinates: Any, filter: str = "linear") -> Vec:
         if not isinstance(texture, TextureRef) or texture.dimensions != len(coordinates):
             raise FormulaError(f"a texture lookup wants a declared texture and one coordinate an axis, got {texture!r}")
-        fetch = self._make("texture", tuple(map(self.constant, coordinates)), texture)
+        fetch = self._make("texture", tuple(map(self.constant, coordinates)), replace(texture, filter=filter))
         return Vec(*(self._make("channel", (fetch,), channel) for channel in range(texture.channels)))
 
     def call(self, op: str, *arguments: Any) -> Expr:

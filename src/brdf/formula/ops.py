@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from ..errors import UnknownNameError
 from .backends import backend_of
 from .graph import Expr, TextureRef
-from .textures import lookup
+from .textures import FILTERS, lookup
 from .vec import Scalar, Vec, elementwise
 
 __all__ = [
@@ -157,25 +158,30 @@ def mean(a: Vec) -> Scalar:
     return total / len(a)
 
 
-def _texture(data: Any, *coordinates: Scalar) -> Vec:
+def _texture(data: Any, *coordinates: Scalar, filter: str) -> Vec:
+    if filter not in FILTERS:
+        raise UnknownNameError("texture filter", filter, FILTERS)
     for u in coordinates:
         if isinstance(u, Expr):
-            return u.graph.texture(data, *coordinates)
+            return u.graph.texture(data, *coordinates, filter=filter)
     if isinstance(data, TextureRef) and data.graph is not None:
-        return data.graph.texture(data, *coordinates)
-    return lookup(data, coordinates, backend_of(*coordinates))
+        return data.graph.texture(data, *coordinates, filter=filter)
+    return lookup(data, coordinates, backend_of(*coordinates), filter)
 
 
-def texture1d(data: Any, u: Scalar) -> Vec:
-    """Linear lookup in an array (n, C): texel centres at (i + 0.5) / n, clamped to the edge. Returns C channels."""
-    return _texture(data, u)
+def texture1d(data: Any, u: Scalar, filter: str = "linear") -> Vec:
+    """Lookup in an array (n, C): texel centres at (i + 0.5) / n, clamped to the edge. Returns C channels.
+
+    `filter` is "nearest", "linear", "catmull-rom" or "b-spline" (see `textures`). Raises UnknownNameError.
+    """
+    return _texture(data, u, filter=filter)
 
 
-def texture2d(data: Any, u: Scalar, v: Scalar) -> Vec:
-    """Bilinear lookup in an array (nu, nv, C), as `texture1d`."""
-    return _texture(data, u, v)
+def texture2d(data: Any, u: Scalar, v: Scalar, filter: str = "linear") -> Vec:
+    """Lookup in an array (nu, nv, C), as `texture1d`."""
+    return _texture(data, u, v, filter=filter)
 
 
-def texture3d(data: Any, u: Scalar, v: Scalar, w: Scalar) -> Vec:
-    """Trilinear lookup in an array (nu, nv, nw, C), as `texture1d`."""
-    return _texture(data, u, v, w)
+def texture3d(data: Any, u: Scalar, v: Scalar, w: Scalar, filter: str = "linear") -> Vec:
+    """Lookup in an array (nu, nv, nw, C), as `texture1d`."""
+    return _texture(data, u, v, w, filter=filter)

@@ -45,7 +45,7 @@ def trace(reflectance: Any) -> Program:
     """The program of a reflectance that has a formula. Raises FormulaError when it branches on a traced value."""
     graph = Graph()
     sizes = {name: 1 if isinstance(value, float) else len(value) for name, value in reflectance.values.items()}
-    textures = {name: TextureRef(name, data.shape, graph) for name, data in reflectance.textures.items()}
+    textures = {name: TextureRef(name, data.shape, graph=graph) for name, data in reflectance.textures.items()}
 
     def lookup(name: str) -> Any:
         if name == UV:

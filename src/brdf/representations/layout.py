@@ -15,6 +15,7 @@ from ..formula import Scalar, Vec, floor, mix, texture3d, where
 from ..geometry.warps import Angle, Warp, warp_from
 from .bases import Basis, basis_from
 from .encoding import Encoding, encoding_from
+from .filters import texture_filter
 from .storage import storage
 
 Array = NDArray[np.floating[Any]]
@@ -27,7 +28,7 @@ class Layout:
     The nodes of an axis sit at its ends (vertex-centred): node i of n has the warp's coordinate i / (n - 1). The
     azimuth of an anisotropic basis is a circle: there it is i / n. Such a grid of four axes lies in a texture of three,
     one isotropic grid after the other along the first axis, which is how it lies in memory anyway; it is read by two
-    trilinear lookups and a mix.
+    trilinear lookups and a mix, for which cubic filters are not made. See `filters` for `filter`.
     """
 
     basis: Basis
@@ -35,6 +36,7 @@ class Layout:
     shape: tuple[int, ...]
     encoding: Encoding
     storage: str = "float32"
+    filter: str = "linear"
 
     def __post_init__(self) -> None:
         axes = self.basis.axes
@@ -48,6 +50,8 @@ class Layout:
         if not self.basis.isotropic and self.warps[0].extent != self.basis.extents[0]:
             raise ReflectanceError(f"the azimuth's circle must have extent {self.basis.extents[0]:g}, as its basis")
         storage(self.storage)
+        if texture_filter(self.filter) not in ("nearest", "linear") and not self.basis.isotropic:
+            raise ReflectanceError(f"a table over four angles is read nearest or linear, not by {self.filter!r}")
 
     @property
     def texture_shape(self) -> tuple[int, ...]:
@@ -68,19 +72,22 @@ class Layout:
         """The formula for three axes: texture coordinates that put node i at the centre of texel i."""
         return _coordinates(self.positions(angles), self.shape)
 
-    def fetch(self, grid: Any, angles: tuple[Angle, ...]) -> Vec:
-        """The formula: the channels of a texture of `texture_shape`, interpolated at angles."""
-        positions = self.positions(angles)
+    def fetch(self, grid: Any, angles: tuple[Angle, ...], filter: str | None = None) -> Vec:
+        """The formula: the channels of a texture of `texture_shape`, interpolated at angles (by another filter)."""
+        how = texture_filter(filter or self.filter)
         if self.basis.isotropic:
-            return texture3d(grid, *_coordinates(positions, self.shape))
-        turn, first, *others = positions
+            u, v, w = self.texture_coordinates(angles)
+            return texture3d(grid, u, v, w, filter=how)
+        turn, first, *others = self.positions(angles)
         count, rows = self.shape[:2]
-        below = floor(turn)
-        slices = [where(index < count - 0.5, index, index - count) for index in (below, below + 1.0)]
-        low, high = (
-            texture3d(grid, *_coordinates([index * rows + first, *others], self.texture_shape)) for index in slices
-        )
-        value: Vec = mix(low, high, turn - below)
+
+        def read(index: Scalar) -> Vec:
+            row = where(index < count - 0.5, index, index - count) * rows + first
+            u, v, w = _coordinates([row, *others], self.texture_shape)
+            return texture3d(grid, u, v, w, filter=how)
+
+        below = floor(turn + 0.5 if how == "nearest" else turn)
+        value: Vec = read(below) if how == "nearest" else mix(read(below), read(below + 1.0), turn - below)
         return value
 
     @property
@@ -91,6 +98,7 @@ class Layout:
             "shape": list(self.shape),
             "encoding": self.encoding.state,
             "storage": self.storage,
+            "filter": self.filter,
         }
 
 
@@ -98,7 +106,8 @@ def layout_from(state: Mapping[str, Any]) -> Layout:
     """The layout that `Layout.state` describes. May raise any error for a broken description."""
     warps = tuple(map(warp_from, state["warps"]))
     shape = tuple(map(int, state["shape"]))
-    return Layout(basis_from(state["basis"]), warps, shape, encoding_from(state["encoding"]), state["storage"])
+    encoding, how = encoding_from(state["encoding"]), state.get("filter", "linear")
+    return Layout(basis_from(state["basis"]), warps, shape, encoding, state["storage"], how)
 
 
 def _coordinates(positions: list[Scalar], shape: tuple[int, ...]) -> list[Scalar]:

@@ -19,6 +19,7 @@ from ..formula import Vec
 from ..geometry.arguments import broadcast_directions
 from ..reflectance import Reflectance
 from .bases import cos_difference
+from .filters import PREFILTERED, prefiltered
 from .layout import Layout, layout_from
 from .storage import storage
 
@@ -65,7 +66,12 @@ class Table(Reflectance):
     def encoded(
         cls, layout: Layout, stored: Array, floor: ArrayLike | None = None, measured: NDArray[np.bool_] | None = None
     ) -> Table:
-        """A table of encoded values (*shape, 3), packed here; `floor` (3,) is what the encoding subtracted."""
+        """A table of encoded values (*shape, 3) at the nodes, packed here; `floor` (3,) is what was subtracted.
+
+        A prefiltered spline's coefficients are made here, too.
+        """
+        if layout.filter == PREFILTERED:
+            stored = prefiltered(stored)
         codes, constants = storage(layout.storage).pack(stored)
         if floor is not None:
             constants["floor"] = np.asarray(floor, np.float64)
@@ -154,7 +160,7 @@ class Table(Reflectance):
         if self._measured is not None:
             with np.errstate(all="ignore"):
                 angles = self.layout.basis.angles(Vec(*wi.T), Vec(*wo.T))
-                share = self.layout.fetch(self._mask_texels, angles)[0]
+                share = self.layout.fetch(self._mask_texels, angles, "linear")[0]
             above &= share >= 0.5
         return above.reshape(shape)
 

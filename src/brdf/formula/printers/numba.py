@@ -8,11 +8,11 @@ on with the fetched channels. What depends on parameters alone is computed once 
 
 from __future__ import annotations
 
-import itertools
-
 from ..graph import BOOLEAN_OPS, Expr, TextureRef, reachable
 from ..trace import Program, component_names
-from .statements import Dialect, Statements
+from .numba_dialect import UNIFORM, VARYING
+from .numba_lookup import lookup_loop
+from .statements import Statements
 
 BLOCK = 512
 """Pairs a block: the work array of a typical model fits the first-level cache."""
@@ -41,33 +41,6 @@ def array(dtype, dimensions, layout):
 def kernel({arguments}):
     """Fills out[start:stop]; returns the start of the first block with a direction not of unit length, or -1."""
 '''
-
-
-def _constant(value: float | bool) -> str:
-    if isinstance(value, bool):
-        return str(value)
-    text = repr(value)
-    return f"np.{text}" if text in ("inf", "nan") else text
-
-
-_RESERVED = frozenset({
-    "wi", "wo", "uv", "parameters", "out", "start", "stop", "clamp", "work", "bad", "first", "count", "i", "off",
-    "lit", "value", "texels", "base", "number", "real", "types", "np", "njit", "uniform", "array", "kernel",
-    "min", "max", "int", "ZERO", "ONE", "TOLERANCE", "ROWS", "BLOCK",
-})  # fmt: skip
-
-_VARYING = Dialect(
-    constant=lambda value: _constant(value) if isinstance(value, bool) else f"real({_constant(value)})",
-    call=lambda op, arguments: f"{op}({', '.join(arguments)})",
-    negation=lambda text: f"(not {text})",
-    reserved=_RESERVED,
-)
-_UNIFORM = Dialect(
-    constant=_constant,
-    call=lambda op, arguments: f"uniform.{op}({', '.join(arguments)})",
-    negation=lambda text: f"(not {text})",
-    reserved=_RESERVED,
-)
 
 
 _DIRECTIONS = [f"{w}_{axis}" for w in ("wi", "wo") for axis in "xyz"]
@@ -139,7 +112,7 @@ class _KernelPrinter:
         lines = [f"{name} = parameters[{index}]" for index, name in used]
         edge = {a for node in self._varying for a in node.args} | set(self._program.outputs)
         edge = {node for node in edge if node not in self._varying and node.op != "constant"}
-        statements = Statements(_UNIFORM, self._program.graph.names, {self._symbols[name]: name for _, name in used})
+        statements = Statements(UNIFORM, self._program.graph.names, {self._symbols[name]: name for _, name in used})
         wanted = sorted(edge, key=lambda node: node.index)
         statements.add(wanted)
         lines += [f"{name} = {text}" for name, text in statements.lines]
@@ -175,7 +148,7 @@ class _KernelPrinter:
         coordinates = [self._row(f"{texture.name}_u{axis}_{fetch.index}") for axis in range(texture.dimensions)]
         lines += [f"    {row} = {statements.text(u)}" for row, u in zip(coordinates, fetch.args, strict=True)]
         channels = [f"{texture.name}_{channel}_{fetch.index}" for channel in range(texture.channels)]
-        lines += _lookup(texture, coordinates, [self._row(name) for name in channels])
+        lines += lookup_loop(texture, coordinates, [self._row(name) for name in channels])
         for node in self._needed:
             if node.op == "channel" and node.args[0] is fetch:
                 self._known[node] = channels[node.value]
@@ -194,7 +167,7 @@ class _KernelPrinter:
 
     def _computed(self, outputs: tuple[Expr, ...]) -> tuple[list[str], Statements]:
         """The head of a loop that computes some nodes: loads, then statements."""
-        statements = Statements(_VARYING, self._program.graph.names, self._known)
+        statements = Statements(VARYING, self._program.graph.names, self._known)
         statements.add(outputs)
         needed = (self._known[node] for node in reachable(outputs, stop=self._known) if node in self._known)
         lines = self._loop([name for name in needed if name in self._rows])
@@ -205,32 +178,6 @@ class _KernelPrinter:
 
     def _loads(self, names: list[str]) -> list[str]:
         return [f"    {name} = {self._rows[name]}" for name in names]
-
-
-def _lookup(texture: TextureRef, coordinates: list[str], channels: list[str]) -> list[str]:
-    """A loop of linear lookups (see `textures.lookup` for the definition)."""
-    axes = range(texture.dimensions)
-    lines = [f"size{axis} = {texture.name}.shape[{axis}]" for axis in axes]
-    lines += [f"texels = {texture.name}.reshape(-1)", "for i in range(count):"]
-    for axis, u in zip(axes, coordinates, strict=True):
-        step = " * ".join([f"size{later}" for later in axes[axis + 1 :]] + [str(texture.channels)])
-        lines += [
-            f"    x{axis} = {u} * real(size{axis}) - real(0.5)",
-            f"    x{axis} = minimum(where(x{axis} > ZERO, x{axis}, ZERO), real(size{axis} - 1))",
-            f"    i{axis} = min(int(x{axis}), max(size{axis} - 2, 0))",
-            f"    f{axis} = x{axis} - real(i{axis})",
-            f"    step{axis} = {step} if size{axis} > 1 else 0",
-        ]
-    lines.append("    base = " + " + ".join(f"i{axis} * step{axis}" for axis in axes))
-    corners = list(itertools.product((0, 1), repeat=texture.dimensions))
-    for number, corner in enumerate(corners):
-        weight = " * ".join(f"f{axis}" if up else f"(ONE - f{axis})" for axis, up in enumerate(corner))
-        offset = " + ".join(["base"] + [f"step{axis}" for axis, up in enumerate(corner) if up])
-        lines += [f"    w{number} = {weight}", f"    o{number} = {offset}"]
-    for channel, row in enumerate(channels):
-        terms = [f"w{number} * texels[o{number} + {channel}]" for number in range(len(corners))]
-        lines.append(f"    {row} = " + " + ".join(terms))
-    return lines
 
 
 def _indent(levels: int, lines: list[str]) -> list[str]:

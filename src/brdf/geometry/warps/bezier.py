@@ -21,7 +21,7 @@ class Bezier(Warp):
 
     alpha = 1 is the identity (even cosines), 0.5841 nearly even angles, smaller values crowd the nodes at 0 (and pi);
     the density of nodes is proportional to sqrt(2) (1 - alpha) there and to alpha at 90 degrees.
-    An axis up to pi maps F from [-1, 1] to [0, 1]. Reference: MallettYuksel2016.
+    An axis up to pi maps F from [-1, 1] to [0, 1]. Reference: Mallett2016.
     """
 
     alpha: float = 0.65
