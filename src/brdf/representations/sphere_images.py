@@ -15,7 +15,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import ParameterError
+from ..errors import BrdfError, ParameterError
 from ..formula import Scalar, Vec, atan2, cos, cross, dot, length, maximum, pi, sin, sqrt, texture3d, where
 from ..reflectance import Reflectance
 from .sphere_images_blends import blend_rule, neighbours
@@ -82,6 +82,8 @@ class SphereImages(Reflectance):
     ) -> None:
         self._codes, self._storage, self._dilated = codes, store, bool(dilated)
         self._constants = {name: np.asarray(value, np.float64) for name, value in constants.items()}
+        if set(self._constants) != set(storage(store).constants):
+            raise ValueError(f"storage {store!r} has the constants {storage(store).constants}")
         texels = storage(store).texels(codes)
         self._textures = {"spheres": texels}
         self._angles = checked_angles(angles, len(texels))
@@ -129,7 +131,7 @@ class SphereImages(Reflectance):
         - `mask`: in the fixed view (`fixed_view`), whether normals turned away from the light are black, default True;
           as a reflectance it always is;
         - `guard`: whether a picture in which the turned normal is out of sight leaves the pixel to the other one,
-          default True (it never happens with "monotone", and "separated" fades such pictures out in any case).
+          default True ("separated" fades such pictures out in any case).
 
         Raises UnknownNameError, ParameterError.
         """
@@ -261,8 +263,11 @@ class SphereImages(Reflectance):
     @classmethod
     def _restore(cls, header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]], children: Any) -> Reflectance:
         made = cls.__new__(cls)
-        made._hold(arrays["codes"], header["constants"], header["storage"], header["angles"], header["dilated"])
-        made._choose(header["blend"], header["options"])
+        try:
+            made._hold(arrays["codes"], header["constants"], header["storage"], header["angles"], header["dilated"])
+            made._choose(header["blend"], header["options"])
+        except BrdfError as error:
+            raise ValueError(error) from None
         return made
 
 

@@ -36,7 +36,7 @@ def paper(a: Scalar, phi: Scalar, last: float) -> Scalar:
 
 def monotone(a: Scalar, phi: Scalar, last: float) -> Scalar:
     """k = (1 - s^3) / 2, s from -1 at the shadow's edge over 0 at the half vector to 1 at the limb: each of the three
-    lands on its like in either picture, so that no normal ever turns out of sight."""
+    lands on its like in either picture. No normal turns out of sight while phi_2 - phi <= (pi - phi) / 3."""
     s = clip((a - 0.5 * phi) / maximum(0.5 * pi - 0.5 * phi, NARROWEST), -1.0, 1.0)
     return 0.5 - 0.5 * s * s * s
 
