@@ -19,6 +19,7 @@ _NAMES = {
     "TwoSided": "combinators",
     "SliceStack": "representations.slice_stack",
     "Table": "representations.table",
+    "capture": "capture",
     "check": "laws",
     "compare": "metrics",
     "convert": "conversion",

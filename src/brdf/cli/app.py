@@ -1,4 +1,4 @@
-"""The parser: one command a module of `verbs`. The folder is the list."""
+"""The parser: one command, or one group of commands, a module of `verbs`. The folder is the list."""
 
 from __future__ import annotations
 
@@ -39,4 +39,7 @@ def _common(
 
 for _found in pkgutil.iter_modules(verbs.__path__):
     _verb = importlib.import_module(f"{verbs.__name__}.{_found.name}")
-    app.command(_found.name)(_verb.command)
+    if hasattr(_verb, "group"):
+        app.add_typer(_verb.group, name=_found.name)
+    else:
+        app.command(_found.name)(_verb.command)

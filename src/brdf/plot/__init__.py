@@ -8,6 +8,7 @@ that take several reflectances lay them over each other.
 from __future__ import annotations
 
 from .comparison import compared, comparison
+from .coverage import coverage
 from .curves import albedo, profile
 from .fresnel_curves import fresnel
 from .maps import slices, solid
@@ -17,6 +18,6 @@ from .pictures import spheres, white_out
 from .polar import cartesian, lobes
 
 __all__ = [
-    "albedo", "cartesian", "compared", "comparison", "fresnel", "lobes", "overview", "profile", "save", "slices",
-    "solid", "spheres", "white_out",
+    "albedo", "cartesian", "compared", "comparison", "coverage", "fresnel", "lobes", "overview", "profile", "save",
+    "slices", "solid", "spheres", "white_out",
 ]  # fmt: skip

@@ -12,7 +12,6 @@ metallic paint whose mirror peak at 80 degrees is a single row); at the measured
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Mapping
 from typing import Any
@@ -24,6 +23,7 @@ from ..color import rgb_weights
 from ..formula import Scalar, Vec, abs, atan2, engine, length, maximum, minimum, sqrt, texture3d
 from ..geometry.arguments import broadcast_directions
 from ..reflectance import Floats, Reflectance
+from .interpolation import reading
 
 GRID = (64, 46, 16)
 """Nodes over sqrt(theta_h), theta_d (2 degrees apart) and |cos phi_d|."""
@@ -78,7 +78,7 @@ class Scattered(Reflectance):
         at_nodes = interpolate(_features(*(axis.ravel() for axis in nodes)))
         lowest, highest = logarithms.min(0), logarithms.max(0)
         grid = np.clip(at_nodes, lowest, highest)
-        nodes_read, shares = _reading(_coordinates(Vec(*wi.T), Vec(*wo.T), GRID), GRID)
+        nodes_read, shares = reading(_coordinates(Vec(*wi.T), Vec(*wo.T), GRID), GRID)
         grid[nodes_read] = _corrected(grid[nodes_read], shares, logarithms).clip(lowest, highest)
         return cls(np.maximum(np.exp(grid) - floor, 0).reshape(*GRID, -1), wavelengths)
 
@@ -170,24 +170,6 @@ def _interpolant(points: NDArray[np.float64], values: NDArray[np.float64]) -> An
         target /= counts[:, None]
     neighbours = _NEIGHBOURS if len(counts) > _MOST_DENSE else None
     return RBFInterpolator(*merged, neighbors=neighbours, kernel="linear")
-
-
-def _reading(coordinates: list[Scalar], grid: tuple[int, ...]) -> tuple[NDArray[np.intp], Any]:
-    """The nodes (flat indices) that a linear lookup at N coordinates reads, and its weights, sparse (N, nodes)."""
-    from scipy.sparse import csr_array
-
-    positions = [np.clip(u * n - 0.5, 0, n - 1) for u, n in zip(coordinates, grid, strict=True)]
-    below = [np.minimum(p.astype(np.intp), n - 2) for p, n in zip(positions, grid, strict=True)]
-    count = len(positions[0])
-    nodes, weights = np.empty((8, count), np.intp), np.empty((8, count))
-    for corner, steps in enumerate(itertools.product((0, 1), repeat=3)):
-        nodes[corner] = np.ravel_multi_index([b + s for b, s in zip(below, steps, strict=True)], grid)
-        weights[corner] = math.prod(
-            p - b if s else 1 - (p - b) for p, b, s in zip(positions, below, steps, strict=True)
-        )
-    used, columns = np.unique(nodes, return_inverse=True)
-    rows = np.broadcast_to(np.arange(count), nodes.shape)
-    return used, csr_array((weights.ravel(), (rows.ravel(), columns.ravel())), shape=(count, len(used)))
 
 
 def _corrected(nodes: NDArray[np.float64], shares: Any, wanted: NDArray[np.float64]) -> NDArray[np.float64]:
