@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import ParameterError
+from ..metrics import psnr_of
 from ..reflectance import Reflectance
 from ..representations.slice_stack import SliceStack
 from ..representations.sphere_images import SphereImages
@@ -26,6 +27,8 @@ from .stack_fit import fit_stack
 
 DEFAULT_ALBEDO = 0.5
 """Diffuse albedo that the ball is taken to have where nothing sets the scale."""
+POOR = 28.0
+"""PSNR [dB] below which a warning is due: real balls reach 34 and more, a wrong response stays below 26."""
 SIZES = (64, 512)
 """Texels across a sphere image by default: the ball's diameter in pixels within these."""
 
@@ -106,6 +109,13 @@ def sphere(
 
     rows = () if holdout is None else hold_out(photographs, holdout, methods)
     built = build(photographs)
+    agreement = _agreement(photographs, built.stack)
+    facts.append(f"the slice stack repeats the photographs to {agreement:.1f} dB")
+    if agreement < POOR:
+        warnings.append(
+            f"no isotropic material fits the photographs (to {agreement:.1f} dB only): check the directions and the "
+            "order of the lights, and the camera's response (--response linear, srgb or a gamma)"
+        )
     name = Path(folder).resolve().name
     source = f"photographs of a ball ({len(photographs)} lights)"
     return Captured(
@@ -120,6 +130,16 @@ def sphere(
         warnings=tuple(warnings),
         holdout=rows,
     )
+
+
+def _agreement(photographs: BallPhotographs, m: Reflectance) -> float:
+    """The mean PSNR [dB] between the photographs and the material's own pictures."""
+    found = []
+    for number in range(len(photographs)):
+        wi, wo, _, radiance = photographs.pixels(number)
+        if len(wi):
+            found.append(min(psnr_of(radiance, math.pi * m.f_cos(wi, wo)), 100.0))
+    return float(np.mean(found))
 
 
 def _scale(photographs: BallPhotographs, albedo: float | None, white: float | None) -> tuple[float, str]:
