@@ -25,7 +25,7 @@ from .sphere_images_bake import disc
 Array = NDArray[np.floating[Any]]
 
 SHADOWING = 0.1
-"""c: the cosine at which half the light is lost to shadowing. Found by trial, see docs/sphere-images.md."""
+"""c: the cosine at which half the light is lost to shadowing; found by trial, see docs/sphere-images.md."""
 
 FADE = 0.1
 """Cosine below which a picture counts less: in it the turned normal nears the limb or the shadow's edge."""
