@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -62,6 +62,18 @@ class Layout:
         """The angles [rad] of the nodes, shaped to broadcast over the grid: (n, 1, 1), (1, n, 1), (1, 1, n)."""
         axes = [warp.nodes(n) for warp, n in zip(self.warps, self.shape, strict=True)]
         return tuple(np.meshgrid(*axes, indexing="ij", sparse=True))
+
+    def slabs(self, most: int = 1 << 15) -> Iterator[tuple[slice, tuple[Array, ...]]]:
+        """Rows of the texture, and the angles of their nodes: at most so many nodes at once (one row at least).
+
+        What is done slab by slab needs memory for a slab, not for a grid of directions.
+        """
+        *leading, second, third = (warp.nodes(n) for warp, n in zip(self.warps, self.shape, strict=True))
+        firsts = [axis.ravel() for axis in np.meshgrid(*leading, indexing="ij")]
+        rows, step = self.texture_shape[0], max(most // math.prod(self.shape[-2:]), 1)
+        for start in range(0, rows, step):
+            block = slice(start, start + step)
+            yield block, (*(axis[block, None, None] for axis in firsts), second[:, None], third)
 
     def positions(self, angles: tuple[Angle, ...]) -> list[Scalar]:
         """The formula: where angles lie between the nodes: i at node i, up to n - 1, or up to n around a circle."""
