@@ -274,7 +274,7 @@ def test_bad_input() -> None:
         sample().replaced(technique="radianse")
     with pytest.raises(UnknownNameError, match="unknown above 'cut'"):
         sample(above="cut")
-    with pytest.raises(ParameterError, match=r"slices must be a whole number in \[2, 33\], got 1"):
+    with pytest.raises(ParameterError, match=r"slices must be a whole number in \[2, 17\], got 1"):
         sample(mode="paper", slices=1)
     with pytest.raises(ReflectanceError, match="delta events"):
         sample(brdf=Mirror(), sigma=1)

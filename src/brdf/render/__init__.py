@@ -7,6 +7,7 @@ from .environment import Environment
 from .image import Image
 from .lights import Directional, Point
 from .mesh import Mesh
+from .per_vertex import render_per_vertex
 from .scene import Camera
 
 __all__ = [
@@ -19,6 +20,7 @@ __all__ = [
     "captioned",
     "render",
     "render_halves",
+    "render_per_vertex",
 ]
 
 make_callable(__name__, render)

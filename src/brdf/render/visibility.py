@@ -109,7 +109,8 @@ class Triangles:
         above = mesh.bounds[1] + 1
         self._scene.run(above[None], np.array([[0, 1, 0]], np.float32))  # the first ray builds the tree, on one thread
 
-    def meet(self, origins: Floats, directions: Floats) -> ShadingPoints:
+    def faces(self, origins: Floats, directions: Floats) -> tuple[NDArray[np.int32], Floats]:
+        """(N,) faces that rays meet first, -1 for none, and (2, N) weights of their second and third corner there."""
         count = len(origins)
         face = np.empty(count, np.int32)
         weights = np.empty((2, count), np.float32)
@@ -120,6 +121,10 @@ class Triangles:
             weights[:, start:stop] = met["u"], met["v"]
 
         in_parallel(trace, count)
+        return face, weights
+
+    def meet(self, origins: Floats, directions: Floats) -> ShadingPoints:
+        face, weights = self.faces(origins, directions)
         found = ShadingPoints.empty(np.flatnonzero(face >= 0))
         uvs = self._mesh.uvs if self._mesh.uvs is not None else np.zeros((1, 3, 2), np.float32)
         in_parallel(

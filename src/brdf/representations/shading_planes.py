@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from itertools import pairwise
 from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..color import LUMINANCE
-from ..formula import Scalar, Vec, maximum, pow, texture1d, texture2d
+from ..formula import Scalar, Vec, maximum, pow, texture2d
 from .shading_stack import Picture, Place, Stack, with_rim
 
 LEVELS = 255
@@ -94,17 +95,26 @@ class PrincipalPictures(Planes):
         super().__init__(codes, low, span, typical @ LUMINANCE, wraps)
 
     @cached_property
-    def textures(self) -> dict[str, NDArray[np.float32]]:
-        rows = np.concatenate([self.mean[None], self.basis]).transpose(1, 0, 2)
-        return super().textures | {"basis": rows.reshape(len(rows), -1).astype(np.float32)}
+    def values(self) -> dict[str, Any]:
+        """The nodes, and M and B there: numbers and not a texture, so that kernels need no lookup for them."""
+        rows = np.concatenate([self.mean[None], self.basis])
+        return super().values | {
+            _row_name(row, node): rows[row, node] for row in range(len(rows)) for node in range(len(self.nodes))
+        }
 
     def value(self, bound: Any, place: Place, level: Scalar) -> Vec:
-        along = (self.position(bound, level) + 0.5) * (1 / len(self.nodes))
-        numbers = texture2d(bound.planes, *place)
-        basis = texture1d(bound.basis, along)
-        rgb = Vec(*basis.components[:3])
-        for index, number in enumerate(numbers):
-            rgb = rgb + number * Vec(*basis.components[3 * index + 3 : 3 * index + 6])
+        rises = self.rises(bound, level)
+
+        def at_level(row: int) -> Vec:
+            ends = [getattr(bound, _row_name(row, node)) for node in range(len(self.nodes))]
+            total: Vec = ends[0]
+            for rise, (low, high) in zip(rises, pairwise(ends), strict=True):
+                total = total + (high - low) * rise
+            return total
+
+        rgb = at_level(0)
+        for index, number in enumerate(texture2d(bound.planes, *place)):
+            rgb = rgb + at_level(index + 1) * number
         positive: Vec = maximum(rgb, 0.0)
         return positive
 
@@ -130,6 +140,10 @@ class PrincipalPictures(Planes):
         if not (np.isfinite(mean).all() and np.isfinite(basis).all()):
             raise ValueError("the basis holds NaN or infinity")
         return cls(codes, low, span, mean, basis, header["wraps"])
+
+
+def _row_name(row: int, node: int) -> str:
+    return f"basis_{row}_{node + 1}" if row else f"mean_{node + 1}"
 
 
 class _Curves(Planes):

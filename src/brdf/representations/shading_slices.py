@@ -39,7 +39,7 @@ class Slices(Stack):
         return {"pictures": with_rim(self.pictures, self.wraps)}
 
     def value(self, bound: Any, place: Place, level: Scalar) -> Vec:
-        layer = (self.position(bound, level) + 0.5) * (1 / len(self.nodes))
+        layer = (sum(self.rises(bound, level), 0.0 * level) + 0.5) * (1 / len(self.nodes))
         value: Vec = texture3d(bound.pictures, *place, layer)
         return value
 

@@ -8,7 +8,7 @@ shading map scales the picture at that end.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from itertools import pairwise
 from typing import Any, ClassVar, Self
 
@@ -23,7 +23,7 @@ Picture = NDArray[np.float64]
 Place = tuple[Scalar, Scalar]
 """Texture coordinates (row, column)."""
 
-MOST_NODES = 32
+MOST_NODES = 16
 """Pictures a stack may have: each is a term of the formula that finds a level between them."""
 
 
@@ -79,9 +79,13 @@ class Stack(ABC):
         return (type(self), self._texels.shape, len(self.nodes), self.wraps)
 
     @property
-    def values(self) -> dict[str, float]:
+    def values(self) -> dict[str, Any]:
         """Numbers of the formula by name: the nodes."""
-        return {f"node_{index + 1}": float(node) for index, node in enumerate(self.nodes)}
+        return dict(zip(self.node_names, self.nodes.tolist(), strict=True))
+
+    @property
+    def node_names(self) -> list[str]:
+        return [f"node_{index + 1}" for index in range(len(self.nodes))]
 
     @property
     @abstractmethod
@@ -133,22 +137,15 @@ class Stack(ABC):
         down, right = -v * tiles, u * tiles
         return _within_rim(down, rows), _within_rim(right, columns)
 
-    def position(self, bound: Any, level: Scalar) -> Scalar:
-        """Where the level lies among the nodes, 0 to N - 1: a sum that needs no search."""
-        return along([getattr(bound, name) for name in self.values], level)
+    def rises(self, bound: Any, level: Scalar) -> list[Scalar]:
+        """How far the level lies through each interval between nodes, 0 to 1: piecewise linear without a search."""
+        nodes = [getattr(bound, name) for name in self.node_names]
+        return [clip((level - low) * (1.0 / (high - low)), 0.0, 1.0) for low, high in pairwise(nodes)]
 
 
 def _within_rim(x: Scalar, size: int) -> Scalar:
     """The coordinate in a texture that `with_rim` gave a rim to, of a place in repeated copies of `size` texels."""
     return ((x - floor(x)) * size + 1.0) * (1 / (size + 2))
-
-
-def along(nodes: Sequence[Scalar], x: Scalar) -> Scalar:
-    """The formula: the number of intervals between increasing `nodes` that lie below x, with its share of its own."""
-    total: Scalar = 0.0 * x
-    for low, high in pairwise(nodes):
-        total = total + clip((x - low) * (1.0 / (high - low)), 0.0, 1.0)
-    return total
 
 
 def with_rim(texels: NDArray[np.float32], wraps: bool) -> NDArray[np.float32]:
