@@ -4,19 +4,17 @@ from __future__ import annotations
 
 import json
 import os
-import shutil
-import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..errors import FileError
 from ..reflectance import Reflectance
 from ..representations.sphere_images import SphereImages
 from ..representations.table import Table
 from .ball import Ball
 from .coverage import Coverage
+from .folders import new_folder
 from .hold_out import HeldOut, mean_psnr
 
 IMAGES, STACK, REPORT, NUMBERS = "sphere-images.safetensors", "slice-stack.safetensors", "report.txt", "report.json"
@@ -99,47 +97,11 @@ class Captured:
         `also(folder)` may add files before the folder gets its name. Raises FileError when there is such a folder
         already, unless `overwrite`, or when it cannot be written.
         """
-        target = Path(folder)
-        require_free(target, overwrite)
-        temporary = Path(tempfile.mkdtemp(prefix=".brdf-", dir=target.absolute().parent))
-        try:
-            self.images.save(temporary / IMAGES)
-            self.stack.save(temporary / STACK)
-            (temporary / REPORT).write_text(self.report, "utf-8")
-            (temporary / NUMBERS).write_text(json.dumps(self.numbers(), indent=2, allow_nan=False) + "\n", "utf-8")
+        with new_folder(folder, STACK, overwrite) as place:
+            self.images.save(place / IMAGES)
+            self.stack.save(place / STACK)
+            (place / REPORT).write_text(self.report, "utf-8")
+            (place / NUMBERS).write_text(json.dumps(self.numbers(), indent=2, allow_nan=False) + "\n", "utf-8")
             if also is not None:
-                also(temporary)
-            umask = os.umask(0)
-            os.umask(umask)
-            temporary.chmod(0o777 & ~umask)
-            _put(temporary, target)
-        finally:
-            shutil.rmtree(temporary, ignore_errors=True)
-        return target
-
-
-def require_free(target: Path, overwrite: bool) -> None:
-    """Raises FileError where a result may not go: on what is there already, or in a folder that cannot be written."""
-    if target.exists() and not overwrite:
-        raise FileError(target, "exists; choose another folder with -o, or replace it with --overwrite.")
-    if target.exists() and not (target / STACK).is_file() and (not target.is_dir() or any(target.iterdir())):
-        raise FileError(target, "is no result of a capture; it is not replaced. Choose another folder with -o.")
-    parent = target.absolute().parent
-    if not parent.is_dir() or not os.access(parent, os.W_OK):
-        raise FileError(target, "cannot be written; choose another place with -o.")
-
-
-def _put(made: Path, target: Path) -> None:
-    """Rename `made` to `target`; what was there goes only once the new one is in place."""
-    if not target.exists():
-        made.rename(target)
-        return
-    aside = Path(tempfile.mkdtemp(prefix=".brdf-", dir=target.absolute().parent)) / "old"
-    target.rename(aside)
-    try:
-        made.rename(target)
-    except OSError:
-        aside.rename(target)
-        raise
-    finally:
-        shutil.rmtree(aside.parent, ignore_errors=True)
+                also(place)
+        return Path(folder)

@@ -2,17 +2,31 @@
 
 from __future__ import annotations
 
+import json
+import math
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ... import container
+from ...errors import CorruptFileError
+from ...reflectance import Reflectance
+from ...representations.shading_map import ShadingMap
+from ..folders import new_folder
 from .checks import Checks, checks_of, warnings_of
+from .sheet import save_sheet
 
 Floats = NDArray[np.floating[Any]]
+
+PICTURES, MATERIAL, SHEET = "pictures.safetensors", "shading-map.safetensors", "contact-sheet.png"
+REPORT, NUMBERS = "report.txt", "report.json"
+"""Files of the folder."""
 
 
 @dataclass(frozen=True)
@@ -52,3 +66,72 @@ class FlatSample:
     def warnings(self) -> list[str]:
         """What is wrong or unusual about the pictures, one sentence each."""
         return warnings_of(self.checks, self.elevations)
+
+    def shading_map(self, brdf: Reflectance | None = None, **options: Any) -> ShadingMap:
+        """The sample under any reflectance, by default its own average: see `brdf.ShadingMap.from_images`."""
+        made = ShadingMap.from_images(list(self.images), self.elevations, brdf, **options)
+        return made.named(self.name, self.source)
+
+    @property
+    def report(self) -> str:
+        """What was done and how the pictures are, as text."""
+        checks, lines = self.checks, [*self.facts]
+        lines.append(f"{len(self.images)} pictures of {self.images.shape[2]} x {self.images.shape[1]} pixels")
+        lines += ["", "angle   average  pi a/cos  gradient x      y  clipped"]
+        for k, angle in enumerate(self.elevations):
+            level = math.pi * self.averages[k] / math.cos(math.radians(angle))
+            right, up = checks.gradients[k]
+            lost = checks.clipped[k]
+            lines.append(f"{angle:5.1f}° {self.averages[k]:8.5f}  {level:8.4f}  {right:+10.1%} {up:+6.1%}  {lost:7.2%}")
+        falls = "fall steadily" if checks.monotone else "do not fall steadily"
+        lines += ["", f"averages {falls} towards grazing light; anisotropy of the relief {checks.anisotropy:.2f}"]
+        lines += [f"warning: {text}" for text in self.warnings]
+        return "\n".join(lines) + "\n"
+
+    def numbers(self) -> dict[str, Any]:
+        """The report for scripts; plain JSON values."""
+        return {
+            "facts": list(self.facts),
+            "warnings": self.warnings,
+            "elevations": self.elevations.tolist(),
+            "averages": self.averages.tolist(),
+            "gradients": self.checks.gradients.tolist(),
+            "clipped": self.checks.clipped.tolist(),
+            "anisotropy": self.checks.anisotropy,
+            "monotone": self.checks.monotone,
+            "scale_known": self.scale_known,
+            "size": [int(extent) for extent in self.images.shape[1:3]],
+        }
+
+    def save(
+        self, folder: str | os.PathLike[str], material: Reflectance | None = None, *, overwrite: bool = False
+    ) -> Path:
+        """Write pictures, contact sheet, report and shading map to a new folder, whole or not at all; returns its path.
+
+        `material`: the shading map to save, by default `shading_map()`. Raises FileError when there is such a folder,
+        unless `overwrite`, or when it cannot be written.
+        """
+        with new_folder(folder, PICTURES, overwrite) as place:
+            header = {"kind": "pictures of a flat sample", "name": self.name, "source": self.source,
+                      "scale_known": self.scale_known, "facts": list(self.facts)}  # fmt: skip
+            arrays: dict[str, NDArray[Any]] = {"images": self.images, "clipped": self.checks.clipped}
+            arrays["elevations"] = np.asarray(self.elevations, np.float64)
+            container.save(place / PICTURES, header, arrays)
+            (material or self.shading_map()).save(place / MATERIAL)
+            save_sheet(place / SHEET, self.images, self.elevations, self.averages)
+            (place / REPORT).write_text(self.report, "utf-8")
+            (place / NUMBERS).write_text(json.dumps(self.numbers(), indent=2, allow_nan=False) + "\n", "utf-8")
+        return Path(folder)
+
+    @staticmethod
+    def load(folder: str | os.PathLike[str]) -> FlatSample:
+        """The pictures of a folder written by `save`. Raises CorruptFileError, FileError."""
+        path = Path(folder) / PICTURES
+        header, arrays = container.load(path)
+        try:
+            return FlatSample(
+                arrays["images"], arrays["elevations"], str(header["name"]), str(header["source"]),
+                bool(header["scale_known"]), arrays["clipped"], tuple(map(str, header["facts"])),
+            )  # fmt: skip
+        except (KeyError, TypeError) as error:
+            raise CorruptFileError(path, f"holds no pictures of a flat sample ({error}).") from None

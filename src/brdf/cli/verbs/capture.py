@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from .. import arguments, output
+from .. import arguments, capture_flat, output
 
 group = typer.Typer(rich_markup_mode=None, context_settings={"help_option_names": ["-h", "--help"]})
 
@@ -19,7 +19,8 @@ def _group() -> None:
     \b
     Examples:
       brdf capture sphere photographs/
-      brdf capture sphere --help
+      brdf capture flat photographs/
+      brdf capture simulate leather
     """
 
 
@@ -70,10 +71,11 @@ def sphere(
     """
     from ... import plot
     from ...capture import sphere as capture
-    from ...capture.captured import require_free
+    from ...capture.captured import STACK
+    from ...capture.folders import require_free
 
     target = out or Path(f"{folder.resolve().name}-captured")
-    require_free(target, overwrite)
+    require_free(target, STACK, overwrite)
     with output.working(f"reading {folder}") as tell:
         done = capture(
             folder, lights=lights, intensities=intensities, mask=mask, dark=dark, response=response, albedo=albedo,
@@ -103,3 +105,7 @@ def _angles(text: str | None) -> list[float] | None:
         return [float(part) for part in text.split(",")]
     except ValueError:
         raise ParameterError(f"--angles must be degrees between commas, as 0,30,60; got {text!r}") from None
+
+
+group.command("flat")(capture_flat.flat)
+group.command("simulate")(capture_flat.simulate)
