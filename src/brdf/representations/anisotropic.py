@@ -73,6 +73,12 @@ class AnisotropicHalfBasis(Basis):
     def above_horizon(self, *angles: Array, margin: float) -> tuple[Array, ...]:
         return angles[0], *HalfBasis(self.fold).above_horizon(*angles[1:], margin=margin)
 
+    def horizon(self, first: Array, third: Array) -> Array:
+        return HalfBasis(self.fold).horizon(first, third)
+
+    def jacobian(self, *angles: Array) -> Array:
+        return HalfBasis(self.fold).jacobian(*angles[1:]) + 0 * angles[0]
+
     def images(self, wi: Array, wo: Array) -> list[tuple[Array, Array]]:
         unswapped = _images(wi, wo, self.turn, mirrored=self.fold == "quarter-turn")
         return [*unswapped, *((b, a) for a, b in unswapped)]
@@ -119,6 +125,9 @@ class AnisotropicNormalBasis(Basis):
 
     def above_horizon(self, *angles: Array, margin: float) -> tuple[Array, ...]:
         return angles[0], *NormalBasis().above_horizon(*angles[1:], margin=margin)
+
+    def jacobian(self, *angles: Array) -> Array:
+        return NormalBasis().jacobian(*angles[1:]) + 0 * angles[0]
 
     def images(self, wi: Array, wo: Array) -> list[tuple[Array, Array]]:
         return _images(wi, wo, self.turn, mirrored=self.fold == "half-turn")

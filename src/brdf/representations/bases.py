@@ -60,6 +60,14 @@ class Basis:
         """The nearest angles whose directions lie above the horizon by at least about `margin` [rad]."""
         raise NotImplementedError
 
+    def horizon(self, first: Array, third: Array) -> Array:
+        """The largest angle on the second of the three axes (the azimuth aside) above the horizon [rad]."""
+        return np.full(np.broadcast_shapes(first.shape, third.shape), self.extents[-2])
+
+    def jacobian(self, *angles: Array) -> Array:
+        """d wi d wo over the angles' increments and, for an isotropic basis, that of the azimuth common to both."""
+        raise NotImplementedError
+
     def images(self, wi: Array, wo: Array) -> list[tuple[Array, Array]]:
         """The pairs that this basis does not tell from (wi, wo) by the symmetries it assumes, itself first."""
         raise NotImplementedError
@@ -123,8 +131,14 @@ class HalfBasis(Basis):
     def above_horizon(self, *angles: Array, margin: float) -> tuple[Array, ...]:
         first, second, third = angles
         first = np.minimum(first, HALF_PI - 2 * margin)
-        last = np.arctan2(np.cos(first), np.sin(first) * np.abs(np.cos(third)))
-        return first, np.minimum(second, last - margin), third
+        return first, np.minimum(second, self.horizon(first, third) - margin), third
+
+    def horizon(self, first: Array, third: Array) -> Array:
+        return np.asarray(np.arctan2(np.cos(first), np.sin(first) * np.abs(np.cos(third))))
+
+    def jacobian(self, *angles: Array) -> Array:
+        theta_h, theta_d, phi_d = angles
+        return 4 * np.cos(theta_d) * np.sin(theta_d) * np.sin(theta_h) + 0 * phi_d
 
     def images(self, wi: Array, wo: Array) -> list[tuple[Array, Array]]:
         mirrored = [(wi * _MIRROR, wo * _MIRROR)] if self.fold == "quarter-turn" else []
@@ -159,6 +173,10 @@ class NormalBasis(Basis):
     def above_horizon(self, *angles: Array, margin: float) -> tuple[Array, ...]:
         first, second, third = angles
         return np.minimum(first, HALF_PI - margin), np.minimum(second, HALF_PI - margin), third
+
+    def jacobian(self, *angles: Array) -> Array:
+        theta_i, theta_o, phi = angles
+        return np.sin(theta_i) * np.sin(theta_o) + 0 * phi
 
     def images(self, wi: Array, wo: Array) -> list[tuple[Array, Array]]:
         return [(wi, wo), (wi * _MIRROR, wo * _MIRROR)]

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..errors import ReflectanceError
 from ..formula import Scalar, Vec, floor, mix, texture3d, where
 from ..geometry.warps import Angle, Warp, warp_from
+from . import anisotropic, triangle_bases  # noqa: F401  # they enter the registry of bases
 from .bases import Basis, basis_from
 from .encoding import Encoding, encoding_from
 from .filters import texture_filter
@@ -103,6 +104,15 @@ class Layout:
         return value
 
     @property
+    def wasted(self) -> float:
+        """The share of the grid's volume, in coordinates, whose directions lie below the horizon."""
+        u, weights = _graded_rule(64)
+        first, third = (warp.angle(u) for warp in (self.warps[-3], self.warps[-1]))
+        horizon = self.basis.horizon(first[:, None], third)
+        used = self.warps[-2].coordinate(Angle(np.sin(horizon), np.cos(horizon)))
+        return float(1 - weights @ used @ weights)
+
+    @property
     def state(self) -> dict[str, Any]:
         return {
             "basis": self.basis.state,
@@ -124,3 +134,11 @@ def layout_from(state: Mapping[str, Any]) -> Layout:
 
 def _coordinates(positions: list[Scalar], shape: tuple[int, ...]) -> list[Scalar]:
     return [(position + 0.5) * (1 / n) for position, n in zip(positions, shape, strict=True)]
+
+
+def _graded_rule(count: int) -> tuple[Array, Array]:
+    """Points and weights over [0, 1], crowded at the ends and the middle, where horizons have corners."""
+    x, weights = np.polynomial.legendre.leggauss(count)
+    t = (x + 1) / 2
+    graded, slope = t * t * (3 - 2 * t) / 2, 3 * t * (1 - t)
+    return np.concatenate([graded, 0.5 + graded]), np.tile(slope * weights / 2, 2)
