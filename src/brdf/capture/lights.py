@@ -28,9 +28,7 @@ def read_directions(folder: Path, given: Path | None, count: int) -> Array:
         names = " or ".join(DIRECTIONS)
         raise FileError(folder, f"has no {names}; write a line x y z a photograph there, or name a file with --lights.")
     rows = _rows(path)
-    if len(rows) == 1 + count and len(rows[0]) == 1:
-        rows = rows[1:]
-    elif rows and len(rows[0]) == 1:
+    if rows and len(rows[0]) == 1:
         counted, rows = rows[0][0], rows[1:]
         if counted != len(rows):
             raise CorruptFileError(path, f"counts {counted:g} lights in its first line but lists {len(rows)}.")

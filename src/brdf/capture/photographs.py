@@ -175,7 +175,7 @@ def pictures_in(folder: Path, without: Iterable[Path] = ()) -> tuple[list[Path],
         raise FileError(folder, "no such folder; give the folder of the photographs.")
     skipped = {path.resolve() for path in without}
     found = [path for path in folder.iterdir() if path.suffix.lower() in EXTENSIONS and path.resolve() not in skipped]
-    found.sort(key=lambda path: natural(path.name))
+    found.sort(key=lambda path: (natural(path.stem), path.suffix))
     masks = [path for path in found if "mask" in path.stem.lower()]
     photographs = [path for path in found if path not in masks and "dark" not in path.stem.lower()]
     names = folder / "filenames.txt"

@@ -14,7 +14,8 @@ from ..errors import ParameterError
 from ..metrics import psnr_of
 from ..reflectance import Reflectance
 from ..representations.slice_stack import SliceStack
-from ..representations.sphere_images import SphereImages
+from ..representations.sphere_images import SphereImages, checked_angles
+from ..representations.sphere_images_bake import disc
 from ..representations.table import Table
 from .analytic_fit import fit_ggx_lambert
 from .assembly import as_published, assemble
@@ -81,6 +82,10 @@ def sphere(
             raise ParameterError(f"{name} must lie in (0, 1], got {value:g}")
     if albedo is not None and white is not None:
         raise ParameterError("white and albedo both set the scale; give one of them")
+    if angles is not None:
+        checked_angles(angles)
+    if size is not None:
+        disc(size)
     layout = SliceStack.layouts(budget)[0]
     given = {"lights": lights, "intensities": intensities, "mask": mask, "dark": dark}
     paths = {name: None if path is None else Path(path) for name, path in given.items()}

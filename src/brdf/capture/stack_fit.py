@@ -19,7 +19,7 @@ TRIED = (1e-4, 1e-3, 1e-2, 1e-1)
 """Smoothness, from following every sample to hardly leaving the analytic fit."""
 VALIDATION = 3
 """Every third photograph is left out to choose among them."""
-ENOUGH = 6
+ENOUGH = 8
 """Photographs from which on the choice is made."""
 
 
