@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import subprocess
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -269,6 +270,13 @@ def test_a_result_is_a_folder_and_comes_back(tmp_path: Path) -> None:
     assert load(place / "shading-map.safetensors").children["brdf"].alpha == pytest.approx(0.3)
     with pytest.raises(FileError, match="is no result of a capture"):
         found.save(tmp_path / "photographs", overwrite=True)
+
+
+def test_another_process_reads_the_material(tmp_path: Path) -> None:
+    place = flat(folder_of(tmp_path)).save(tmp_path / "leather")
+    code = f"import brdf; print(brdf.load({str(place / 'shading-map.safetensors')!r}).stack.shape)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=True)
+    assert done.stdout == "(48, 48)\n"
 
 
 def test_nothing_is_left_of_a_result_that_cannot_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

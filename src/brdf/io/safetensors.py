@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+import importlib
+import pkgutil
 from pathlib import Path
 
+from .. import representations
+from ..errors import CorruptFileError
 from ..reflectance import Reflectance
 from .registry import Format
 
@@ -18,7 +22,13 @@ def recognises(head: bytes, size: int) -> bool:
 
 def read(path: Path) -> Reflectance:
     """The reflectance saved in the file. Raises CorruptFileError."""
-    return Reflectance.restore(path)
+    try:
+        return Reflectance.restore(path)
+    except CorruptFileError:
+        # a kind is known once its module is imported, which is left until a file asks for it
+        for module in pkgutil.iter_modules(representations.__path__):
+            importlib.import_module(f"{representations.__name__}.{module.name}")
+        return Reflectance.restore(path)
 
 
 def write(reflectance: Reflectance, path: Path) -> None:
