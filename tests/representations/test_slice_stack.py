@@ -13,10 +13,10 @@ import pytest
 from tests.helpers import random_directions
 
 from brdf import materials, metrics
-from brdf.errors import ReflectanceError, UnknownNameError
-from brdf.models import GGX, Lambertian
+from brdf.errors import ParameterError, ReflectanceError, UnknownNameError
+from brdf.models import GGX, Lambertian, OrenNayar, Ward
 from brdf.reflectance import Reflectance
-from brdf.representations.slice_stack import BUDGETS, SliceStack
+from brdf.representations.slice_stack import BUDGETS, SliceStack, has_half_turn, has_mirror, parse_budget
 
 UNLIT = 10 * math.log10(2)
 WI, WO = random_directions(300, 1), random_directions(300, 2)
@@ -48,19 +48,26 @@ def test_reaches_the_published_accuracy(material, fitted, points):
     assert metrics.psnr(m, SliceStack.bake(m, method="points")) + UNLIT > points
 
 
-def test_every_shipped_sgd_fit_survives():
-    """All 100 fits of Bagher2012 in 16 KB."""
-    names = [name for name in materials.names() if "bagher_sgd" in materials.fits(name)]
-    assert len(names) == 100
-    found = {}
-    for name in names:
-        m = materials.get(name, "bagher_sgd")
-        found[name] = metrics.psnr(m, SliceStack.bake(m), size=96)
-    values = np.minimum(list(found.values()), 100.0)  # a few are diffuse, and exact
-    worst = min(found, key=lambda name: found[name])
-    assert found[worst] >= 54, f"{worst}: {found[worst]:.1f} dB"
-    assert np.mean(values) >= 66
-    assert np.median(values) >= 63
+SGD = ["color-changing-paint2", "silver-metallic-paint", "steel", "two-layer-gold", "white-paint"]
+"""The least exact of the 100 shipped fits of Bagher2012, found by the benchmark, and two that once were."""
+
+
+def test_the_least_exact_sgd_fits_survive():
+    found = {name: metrics.psnr(m, SliceStack.bake(m), 64) for name in SGD if (m := materials.get(name, "bagher_sgd"))}
+    assert min(found.values()) >= 70, found
+    assert np.mean(list(found.values())) >= 72
+
+
+@pytest.mark.parametrize(
+    ("m", "least"),
+    [
+        (plastic(0.1), 74), (plastic(0.4), 73), (gold(0.1), 61), (gold(0.3), 64), (gold(0.6), 64),
+        (OrenNayar(albedo=0.8, sigma=0.5), 58), (Lambertian(albedo=(0.4, 0.2, 0.1)) + Ward(alpha=0.15), 62),
+    ],
+    ids=["plastic 0.1", "plastic 0.4", "gold 0.1", "gold 0.3", "gold 0.6", "Oren-Nayar", "Ward"],
+)  # fmt: skip
+def test_models_on_which_the_splits_were_not_chosen_alone(m, least):
+    assert metrics.psnr(m, SliceStack.bake(m), 64) >= least
 
 
 def test_least_squares_beats_points():
@@ -68,20 +75,36 @@ def test_least_squares_beats_points():
         metrics.psnr(m, SliceStack.bake(m), 36) - metrics.psnr(m, SliceStack.bake(m, method="points"), 36)
         for m in (plastic(0.1), plastic(0.4), gold(0.1), gold(0.3))
     ]
-    assert np.mean(gains) > 2
+    assert np.mean(gains) > 4
 
 
-def test_bigger_budgets_are_better():
-    m = gold(0.3)
-    psnr = [metrics.psnr(m, SliceStack.bake(m, budget), 36) for budget in BUDGETS]
-    assert psnr[0] + 4 < psnr[1] < psnr[2]
+@pytest.mark.parametrize("name", ["gold", "white-paint"])
+def test_bigger_budgets_are_better(name):
+    m = gold(0.3) if name == "gold" else materials.get("white-paint@bagher_sgd")
+    psnr = [metrics.psnr(m, SliceStack.bake(m, budget), 36) for budget in ("4K", "8K", "16K", "64K")]
+    assert np.all(np.diff(psnr) > 0.5), psnr
 
 
-@pytest.mark.parametrize(("budget", "kibibytes"), [("16K", 16), ("64K", 63), ("256K", 256)])
-def test_costs_what_it_says(budget, kibibytes):
-    stack = SliceStack.bake(plastic(0.2), budget)
-    assert stack.codes.nbytes == kibibytes * 1024
-    assert stack.nbytes == stack.codes.nbytes + 4 * 9  # floor, low and span of three channels
+@pytest.mark.parametrize("budget", [512, 1000, "4K", "24K", *BUDGETS])
+def test_costs_no_more_than_it_says(budget):
+    for layout in SliceStack.layouts(budget):
+        nbytes = 4 * math.prod(layout.shape) + 4 * 9  # floor, low and span of three channels
+        assert 0.85 * parse_budget(budget) < nbytes <= parse_budget(budget)
+        assert min(layout.shape) >= 2
+    if parse_budget(budget) <= 24 << 10:
+        stack = SliceStack.bake(plastic(0.2), budget)
+        assert stack.nbytes == stack.codes.nbytes + 4 * 9 <= parse_budget(budget)
+
+
+def test_budgets_in_words_and_numbers():
+    assert parse_budget("24K") == parse_budget("24576") == parse_budget(24576) == parse_budget("24kb") == 24576
+    assert parse_budget("1M") == 1 << 20
+
+
+@pytest.mark.parametrize("budget", [0, 511, "0K", "-16K", "16.5K", "much", "", "K", "65M", True])
+def test_refuses_impossible_budgets(budget):
+    with pytest.raises(ParameterError, match="budget"):
+        SliceStack.bake(Lambertian(), budget)
 
 
 def test_file_is_as_small_and_restores_to_the_bit(tmp_path):
@@ -117,10 +140,23 @@ def test_provenance_names_the_operator():
     assert "least squares" in SliceStack.bake(plastic(0.2).named("p", "made up")).source
 
 
+@pytest.mark.parametrize("m", [GGX(alpha_x=0.2, alpha_y=0.5), Ward(alpha_x=0.2, alpha_y=0.4)], ids=["GGX", "Ward"])
+def test_anisotropic(m):
+    stack = SliceStack.bake(m, "32K", anisotropic=True)
+    assert not stack.isotropic
+    assert stack.nbytes <= 32 << 10
+    assert metrics.psnr(m, stack, 36) > 46
+    assert metrics.psnr(m, SliceStack.bake(GGX(alpha=math.sqrt(0.1))), 36) < 30  # no isotropic one will do
+
+
+def test_symmetries_are_found():
+    straight = GGX(alpha_x=0.1, alpha_y=0.4)
+    assert has_half_turn(straight)
+    assert has_mirror(straight)
+
+
 def test_refuses():
-    with pytest.raises(ReflectanceError, match="anisotropic"):
+    with pytest.raises(ReflectanceError, match=r"anisotropic=True"):
         SliceStack.bake(GGX(alpha_x=0.1, alpha_y=0.3))
-    with pytest.raises(UnknownNameError, match="16K"):
-        SliceStack.bake(Lambertian(), budget="17K")
     with pytest.raises(UnknownNameError, match="points"):
         SliceStack.bake(Lambertian(), method="guess")

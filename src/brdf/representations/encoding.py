@@ -42,6 +42,14 @@ class Transform:
         """The formula: the inverse of `encode`."""
         raise NotImplementedError
 
+    def value(self, stored: Array) -> Array:
+        """The inverse of `encode` on arrays of any shape."""
+        return np.asarray(self.decode(stored))  # type: ignore[arg-type]  # formulas take arrays, too
+
+    def slope(self, stored: Array) -> Array:
+        """The derivative of `value`, not clamped at 0: a way back for nodes that decode to 0."""
+        raise NotImplementedError
+
 
 @dataclass(frozen=True)
 class Plain(Transform):
@@ -52,6 +60,9 @@ class Plain(Transform):
 
     def decode(self, stored: Vec) -> Vec:
         return stored
+
+    def slope(self, stored: Array) -> Array:
+        return np.ones_like(stored)
 
 
 @dataclass(frozen=True)
@@ -71,6 +82,9 @@ class Log(Transform):
         g: Vec = maximum(exp(stored) - self.offset, 0.0)
         return g
 
+    def slope(self, stored: Array) -> Array:
+        return np.exp(stored)
+
 
 @dataclass(frozen=True)
 class Root(Transform):
@@ -89,6 +103,9 @@ class Root(Transform):
         positive: Vec = maximum(stored, 0.0)
         return positive**self.degree
 
+    def slope(self, stored: Array) -> Array:
+        return self.degree * np.maximum(stored, 1e-3) ** (self.degree - 1)
+
 
 @dataclass(frozen=True)
 class Encoding:
@@ -100,10 +117,11 @@ class Encoding:
 
     def encode(self, f: Array, cos_d: Array, floor: Array) -> Array:
         """(..., 3) values f [1/sr], (...) cosines of theta_d, (3,) floor in the scale's units -> (..., 3) stored."""
-        g = self.scale * f - floor
-        if self.cosine_power:
-            g = g * (np.maximum(cos_d, LEAST_COSINE) ** self.cosine_power)[..., None]
-        return self.transform.encode(g)
+        return self.transform.encode((self.scale * f - floor) * self.grazing_factor(cos_d)[..., None])
+
+    def grazing_factor(self, cos_d: Array) -> Array:
+        """cos(theta_d)^cosine_power, of any shape."""
+        return np.asarray(np.maximum(cos_d, LEAST_COSINE) ** self.cosine_power)
 
     def decode(self, stored: Vec, cos_d: Scalar, floor: Any) -> Vec:
         """The formula: f [1/sr]. `floor` is a `Vec`, or 0 for none."""

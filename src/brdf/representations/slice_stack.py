@@ -1,67 +1,182 @@
-"""The theta_d slice stack: an isotropic reflectance in 16 KB.
+"""The theta_d slice stack: a reflectance in 16 KB, or as many bytes as there are.
 
 For one light a sphere seen from afar shows a single theta_d: a table over (theta_h, theta_d, phi_d) is a stack of such
-pictures. With the diffuse floor and the growth towards grazing angles taken out, logarithms stored, theta_h warped by
-a square root and phi_d folded to a quarter turn, 8 slices of 64 x 8 texels of 4 bytes do.
+pictures. The diffuse floor and the growth towards grazing angles are taken out, logarithms stored, nodes crowded at
+small theta_h and grazing theta_d, phi_d folded to a quarter turn and warped so that its first harmonic is linear; the
+values at the nodes are what makes the interpolated pictures look most like the exact ones (`least_squares`).
+
+How many nodes each axis gets of a budget depends on the material: a few splits are tried on it.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from typing import Any, NamedTuple
 
-from ..errors import UnknownNameError
-from ..geometry.warps import FarPower, square_root, uniform
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ParameterError, ReflectanceError, UnknownNameError
+from ..geometry.directions import from_half_difference
+from ..geometry.warps import HALF_PI, Circle, FarPower, Power, SquaredSine, Warp, identity
 from ..reflectance import Reflectance
-from .bake import bake_least_squares, bake_points
+from .anisotropic import AnisotropicHalfBasis
+from .bake import bake_points
 from .bases import HalfBasis
 from .encoding import Encoding, Log
 from .layout import Layout
+from .least_squares import bake_least_squares, choose
 from .table import Table
 
-BUDGETS: dict[str, tuple[int, int, int]] = {"16K": (64, 8, 8), "64K": (96, 12, 14), "256K": (256, 16, 16)}
-"""Nodes over theta_h, theta_d, phi_d for so many bytes at 4 bytes a node."""
+Array = NDArray[np.floating[Any]]
 
-LAST_ANGLE = {8: 172.0, 12: 174.0, 16: 176.0}
-"""The angle between light and viewer of the last slice [degrees], by the number of slices."""
+BUDGETS = {"16K": 16 << 10, "64K": 64 << 10, "256K": 256 << 10}
+"""The usual budgets [bytes]; any other number will do."""
+
+LEAST_BYTES = 512
+"""Below this not even the constants and two nodes an axis make a picture."""
+
+MOST_BYTES = 1 << 26
+
+CONSTANT_BYTES = 36
+"""Floor, low and span of three channels."""
+
+CHOICE_BYTES = 16 << 10
+"""The split of bigger budgets is chosen at this size, which is quick."""
 
 MEASURED_FLOOR = 0.02
 """The quantile of measured values that counts as the diffuse floor: their minimum is noise."""
 
-METHODS: dict[str, Callable[..., Table]] = {"least-squares": bake_least_squares, "points": bake_points}
+SYMMETRY_TOLERANCE = 0.02
+"""Mean difference between mirror images, in parts of the mean value, that counts as none."""
+
+METHODS = ("least-squares", "points")
+
+ENCODING = Encoding(Log(1e-3), cosine_power=1.5, scale=math.pi)
+
+
+class Split(NamedTuple):
+    """Proportions of the numbers of nodes along theta_h, theta_d, phi_d, and the warp of phi_d."""
+
+    proportions: tuple[float, float, float]
+    phi_d: Warp
+
+
+SPLITS = (
+    Split((50, 16, 5), SquaredSine()),
+    Split((80, 16, 3), SquaredSine()),  # narrow highlights
+    Split((43, 23, 4), SquaredSine()),  # wide ones, with colours that change with the angle
+    Split((50, 16, 5), identity()),  # V-grooves: a kink at phi_d = 0
+    Split((39, 17, 6), identity()),
+)
+"""Found on the published fits of 100 materials, microfacet models, and Oren-Nayar's: each is the best of some."""
+
+
+ANISOTROPIC_PROPORTIONS = (20.0, 36.0, 14.0, 7.0)
+"""Proportions of the numbers of nodes along phi_h over half a turn, theta_h, theta_d, phi_d over a quarter turn."""
 
 
 class SliceStack:
-    """Makes tables of one preset; `SliceStack.bake(m)` returns a `Table`."""
+    """Makes tables of one kind; `SliceStack.bake(m)` returns a `Table`."""
 
     @staticmethod
-    def layout(budget: str = "16K") -> Layout:
-        """The preset for a budget: "16K", "64K" or "256K". Raises UnknownNameError."""
-        if budget not in BUDGETS:
-            raise UnknownNameError("slice stack budget", budget, BUDGETS)
-        shape = BUDGETS[budget]
-        slices = FarPower(math.radians(LAST_ANGLE[shape[1]]) / 2, exponent=1.3)
-        return Layout(
-            HalfBasis("quarter-turn"),
-            (square_root(), slices, uniform()),
-            shape,
-            Encoding(Log(1e-3), cosine_power=1.5, scale=math.pi),
-            "10-10-10",
-        )
+    def layouts(budget: str | int = "16K") -> list[Layout]:
+        """The layouts tried within a budget. Raises ParameterError."""
+        return [_layout(split, parse_budget(budget)) for split in SPLITS]
 
     @staticmethod
-    def bake(m: Reflectance, budget: str = "16K", method: str = "least-squares") -> Table:
-        """`m` as a slice stack of 16, 64 or 256 KB.
+    def bake(
+        m: Reflectance, budget: str | int = "16K", method: str = "least-squares", anisotropic: bool = False
+    ) -> Table:
+        """`m` as a slice stack of at most `budget` bytes: a number, or a text such as "16K", "24576" or "1M".
 
-        `method` is "least-squares" (the slices fit what lies between them) or "points" (evaluation at the nodes; some
-        3 dB less). Of measured values the floor is a low quantile, and directions that the folds join are averaged.
-        Raises ReflectanceError when `m` is anisotropic, UnknownNameError for an unknown budget or method.
+        `method` is "least-squares" or "points" (evaluation at the nodes: for photographs; less exact). Of measured
+        values the floor is a low quantile, and directions that the folds join are averaged. With `anisotropic` the
+        table has an azimuth, too; its `nbytes` says what that costs. Raises ReflectanceError when `m` is anisotropic
+        and `anisotropic` is not set, ParameterError for an impossible budget, UnknownNameError for an unknown method.
         """
+        size = parse_budget(budget)
         if method not in METHODS:
             raise UnknownNameError("bake method", method, METHODS)
+        if not m.isotropic and not anisotropic:
+            raise ReflectanceError(
+                f"{m.name or type(m).__name__} is anisotropic; bake it with anisotropic=True, which adds an axis"
+            )
         measured = is_measured(m)
         floor_quantile = MEASURED_FLOOR if measured else 0.0
-        return METHODS[method](m, SliceStack.layout(budget), floor_quantile, symmetrise=measured)
+        layouts = [_anisotropic_layout(m, size)] if anisotropic else SliceStack.layouts(size)
+        if method == "points":
+            return bake_points(m, layouts[0], floor_quantile, symmetrise=measured)
+        best = 0
+        if not anisotropic:
+            best = choose(m, SliceStack.layouts(min(size, CHOICE_BYTES)), floor_quantile, symmetrise=measured)
+        return bake_least_squares(m, layouts[best], floor_quantile, symmetrise=measured)
+
+
+def _layout(split: Split, size: int) -> Layout:
+    """The layout of so many bytes."""
+    nodes = (size - CONSTANT_BYTES) // 4
+    scale = (nodes / math.prod(split.proportions)) ** (1 / 3)
+    azimuths = max(2, round(scale * split.proportions[2]))
+    slices = max(2, round(math.sqrt(nodes / azimuths * split.proportions[1] / split.proportions[0])))
+    shape = nodes // (azimuths * slices), slices, azimuths
+    warps = Power(exponent=2.4), _slices(slices), split.phi_d
+    return Layout(HalfBasis("quarter-turn"), warps, shape, ENCODING, "10-10-10")
+
+
+def _anisotropic_layout(m: Reflectance, size: int) -> Layout:
+    """The layout with an azimuth of so many bytes, folded by the symmetries that `m` has."""
+    half, mirrored = has_half_turn(m), has_mirror(m)
+    basis = AnisotropicHalfBasis("quarter-turn" if mirrored else "half-turn", "half" if half else "full")
+    proportions = np.array(ANISOTROPIC_PROPORTIONS) * (1 if half else 2, 1, 1, 1 if mirrored else 2)
+    nodes = (size - CONSTANT_BYTES) // 4
+    rest = proportions * (nodes / proportions.prod()) ** 0.25
+    turns, slices, azimuths = (max(least, round(rest[k])) for k, least in ((0, 3), (2, 2), (3, 2)))
+    shape = turns, max(2, nodes // (turns * slices * azimuths)), slices, azimuths
+    phi_d = SquaredSine() if mirrored else Power(math.pi)
+    warps = Circle(basis.extents[0]), Power(exponent=2.4), _slices(slices), phi_d
+    return Layout(basis, warps, shape, ENCODING, "10-10-10")
+
+
+def _slices(count: int) -> Warp:
+    return FarPower(math.radians(180 - 64 / count) / 2, exponent=1.5)
+
+
+def parse_budget(budget: str | int) -> int:
+    """Bytes of 24576, "24576", "24K" or "1M". Raises ParameterError."""
+    text = str(budget).strip().upper().removesuffix("B")
+    units = {"K": 1 << 10, "M": 1 << 20}
+    unit = units.get(text[-1:], 1)
+    digits = text[:-1] if unit > 1 else text
+    if not digits.isdecimal():
+        raise ParameterError(f"a budget is a number of bytes such as 16384, '16K' or '1M', got {budget!r}")
+    size = int(digits) * unit
+    if not LEAST_BYTES <= size <= MOST_BYTES:
+        raise ParameterError(
+            f"a slice stack has between {LEAST_BYTES} bytes and {MOST_BYTES >> 20} MB, got a budget of {size} bytes"
+        )
+    return size
+
+
+def has_half_turn(m: Reflectance) -> bool:
+    """Whether turning both directions by half a turn about the normal changes nothing."""
+    return _is_symmetric(m, np.array([-1.0, -1.0, 1.0]))
+
+
+def has_mirror(m: Reflectance) -> bool:
+    """Whether mirroring both directions across the tangent changes nothing."""
+    return _is_symmetric(m, np.array([1.0, -1.0, 1.0]))
+
+
+def _is_symmetric(m: Reflectance, image: Array) -> bool:
+    """Whether `m` is the same, up to SYMMETRY_TOLERANCE, for both directions times `image`."""
+    u = np.random.default_rng(1).random((4, 4096))
+    angles = HALF_PI * u[0] ** 2, 2 * math.pi * u[1], HALF_PI * u[2], 2 * math.pi * u[3]
+    wi, wo = from_half_difference(*angles)
+    clear = (wi[:, 2] > 0.1) & (wo[:, 2] > 0.1)
+    wi, wo = wi[clear], wo[clear]
+    value, other = m(wi, wo), m(wi * image, wo * image)
+    return bool(np.abs(value - other).sum() <= SYMMETRY_TOLERANCE * np.abs(value).sum())
 
 
 def is_measured(m: Reflectance) -> bool:

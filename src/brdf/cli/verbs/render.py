@@ -100,7 +100,7 @@ def _stack(m: Reflectance) -> tuple[Reflectance | None, str]:
         kind = "transmits" if m.transmits else "mirrors" if m.has_delta else "is anisotropic"
         output.note(f"{m.name or type(m).__name__} {kind}, which a slice stack cannot hold; it is drawn alone")
         return None, ""
-    if isinstance(m, Table) and m.layout == SliceStack.layout():
+    if isinstance(m, Table) and m.layout in SliceStack.layouts():
         return None, ""
     with output.working("baking the slice stack"):
         return bake(m), "16 KB slice stack"
