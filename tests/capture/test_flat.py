@@ -21,6 +21,7 @@ from brdf.capture.flat_sample.arc import choose_arc
 from brdf.capture.flat_sample.checks import checks_of, warnings_of
 from brdf.capture.flat_sample.exposures import recover_response
 from brdf.capture.flat_sample.rectify import Cutter, area_averaged, homography
+from brdf.cli import run
 from brdf.color import luminance, srgb_encode
 from brdf.errors import CorruptFileError, FileError, MissingExtraError, ParameterError
 from brdf.geometry.directions import from_spherical
@@ -396,3 +397,47 @@ def test_without_opencv_the_message_says_what_to_install(tmp_path: Path, monkeyp
     monkeypatch.setitem(sys.modules, "cv2", None)
     with pytest.raises(MissingExtraError, match=r"pip install 'brdf\[capture\]'"):
         flat(tmp_path / "b", response="brackets")
+
+
+# ---- command line --------------------------------------------------------------------------------------------------
+
+
+def test_the_command_line_makes_the_folder(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = folder_of(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    assert run(["capture", "flat", str(folder), "--size", "24", "--compress", "3", "--brdf", "GGX:alpha=0.4"]) == 0
+    assert str(tmp_path / "photographs-captured") in capsys.readouterr().out
+    material = load(tmp_path / "photographs-captured" / "shading-map.safetensors")
+    assert material.stack.shape == (24, 24)
+    assert material.stack.bytes_per_texel == 3
+    assert run(["capture", "simulate", "wax", "--size", "24", "--json", "-o", "wax"]) == 0
+    assert json.loads(capsys.readouterr().out)["scale_known"] is True
+    marks = "2,2 44,3 45,44 1,45"
+    assert run(["capture", "flat", str(folder), "--corners", marks, "-o", "cut"]) == 0
+    assert FlatSample.load("cut").images.shape == (4, 44, 44, 3)  # no finer than the photographs
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["flat", "photographs", "--corners", "1,2 3,4"], "--corners must be four pixels"),
+        (["flat", "photographs", "-o", "photographs"], "photographs: exists; choose another folder"),
+        (["flat", "nowhere"], "nowhere: no such folder"),
+        (["flat", "photographs", "--brdf", "GGZ"], "unknown material 'GGZ'"),
+        (["flat", "photographs", "--compress", "9"], "9"),
+        (["simulate", "woool"], "unknown simulated material 'woool': did you mean 'wool'?"),
+    ],
+)
+def test_the_command_line_ends_in_one_line_and_leaves_nothing(
+    arguments: list[str], message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    folder_of(tmp_path)
+    monkeypatch.chdir(tmp_path)
+    assert run(["capture", *arguments]) == 2
+    said = capsys.readouterr().err
+    assert message in said
+    assert said.count("\n") == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["photographs"]

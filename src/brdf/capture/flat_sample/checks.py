@@ -104,7 +104,10 @@ def warnings_of(checks: Checks, elevations: Floats) -> list[str]:
     usual = elevations <= 60
     if usual.any() and float(np.median(steep[usual].max(1))) > GRADIENT:
         share = float(np.median(steep[usual].max(1)))
-        said.append(f"brightness changes by {share:.0%} across a picture: the lamp is too near, or give --white")
+        said.append(
+            f"brightness changes by {share:.0%} across a picture: the lamp is too near (give --white), or the "
+            "sample is not flat"
+        )
     if checks.clipped.max() > CLIPPED:
         at = int(np.argmax(checks.clipped))
         said.append(

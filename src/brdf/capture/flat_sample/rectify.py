@@ -16,8 +16,8 @@ class Cutter:
     """Cuts the same square out of every photograph of a fixed camera.
 
     With `corners` (4, 2), the marks' pixels (x, y) in order top left, top right, bottom right, bottom left, the
-    quadrilateral becomes a square of `crop` pixels; else the middle is cropped to `crop` at most. Then it is averaged
-    down by area to `size` at most. Pixel centres have whole numbers; (0, 0) is the one at the top left.
+    quadrilateral becomes a square of `crop` pixels at most; else the middle is cropped to `crop` at most. Then it is
+    averaged down by area to `size` at most. Pixel centres have whole numbers; (0, 0) is the one at the top left.
     """
 
     def __init__(self, shape: tuple[int, int], corners: Array | None, crop: int, size: int) -> None:
@@ -29,10 +29,10 @@ class Cutter:
             top, left = (shape[0] - rows) // 2, (shape[1] - columns) // 2
             self._box = np.s_[top : top + rows, left : left + columns]
         else:
-            rows = columns = crop
+            side = _longest_side(_checked(corners, shape))
+            rows = columns = max(1, min(crop, round(side)))
             # where the photograph is finer than the square, its pixels are averaged rather than skipped
-            finer = max(1, round(_longest_side(_checked(corners, shape)) / crop))
-            self._places = _places(corners, crop * finer)
+            self._places = _places(corners, rows * max(1, round(side / rows)))
         scale = min(1.0, size / max(rows, columns))
         self.out = (max(1, round(rows * scale)), max(1, round(columns * scale)))
 
