@@ -52,7 +52,7 @@ def test_more_pictures_and_more_bytes_are_better(made: tuple[Report, Path]) -> N
 
 
 def test_figure_4_has_the_errors_that_follow_from_the_equations() -> None:
-    """White diffuser, 512² texels: Eq. 2 is exact but for the shortening, half angles bend the shade by 0.02."""
+    """White diffuser: Eq. 2 is exact but for the shortening, half angles bend the shade by 0.02."""
     report = Report("x", "X", "")
     report.section("s")
     full, half, paper, whole, monotone, _ = spheres.blending(report, Settings(picture=256)).values()

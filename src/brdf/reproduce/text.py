@@ -53,7 +53,8 @@ def _claim(claim: Claim) -> list[str]:
 
 
 def _figure(figure: Figure) -> list[str]:
-    return [f"*{figure.caption}* ({', '.join(figure.files())})"]
+    first, *_, last = [*figure.files(), figure.files()[-1]]
+    return [f"*{figure.caption}* ({first if first == last else f'{first} … {last}'})"]
 
 
 _LINES: dict[type[Any], Callable[[Any], list[str]]] = {Table: _table, Claim: _claim, Figure: _figure}

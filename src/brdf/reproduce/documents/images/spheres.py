@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from ....loading import load
 from ....metrics import psnr_of
 from ....reflectance import Reflectance
 from ....representations.sphere_images import SphereImages
-from ....representations.sphere_images_bake import disc, sphere_pictures
+from ....representations.sphere_images_bake import sphere_pictures
 from ....representations.sphere_images_view import fixed_view, sphere_normals
 from ...pictures import developed, error_picture
 from ...pictures import disc as coverage
@@ -29,7 +29,7 @@ PHI = 60.0
 """The light of figure 4 [degrees], between the pictures at 45 and 90."""
 
 SHOWN = "yellow-plastic"
-SHARP = "Lambertian:albedo=.5 + GGX:alpha=.1,F0=.04"
+GLOSSY = "Lambertian:albedo=.5 + GGX:alpha=.1,F0=.04"
 MATTE = "Lambertian:albedo=1"
 
 HIGHEST_ERROR = 0.2
@@ -56,8 +56,26 @@ def textures(report: Report, settings: Settings) -> None:
     )
 
 
-def blends(settings: Settings, m: Reflectance) -> dict[str, SphereImages]:
-    """The ways of figure 4 to blend the same four pictures, by the letter's words."""
+class Blended(NamedTuple):
+    """A material in the light of figure 4: the truth, and what is blended from the same four pictures."""
+
+    m: Reflectance
+    truth: Array
+    """(size, size, 3) radiance of a sphere; black where it is not lit, and around it"""
+    ways: Mapping[str, SphereImages]
+    pictures: Mapping[str, Array]
+    """the same as `truth` in each way, in the paper's own form"""
+
+    @staticmethod
+    def of(m: Reflectance, settings: Settings) -> Blended:
+        ways = blends(m, settings)
+        light = math.sin(math.radians(PHI)), 0.0, math.cos(math.radians(PHI))
+        pictures = {way: fixed_view(made, sphere_normals(settings.picture), light) for way, made in ways.items()}
+        return Blended(m, sphere_pictures(m, [PHI], settings.picture, dilate=False)[0], ways, pictures)
+
+
+def blends(m: Reflectance, settings: Settings) -> dict[str, SphereImages]:
+    """The ways of figure 4 to blend the same four pictures."""
     dark, dilated = (SphereImages.bake(m, PLASTIC, settings.largest, dilate=d) for d in (False, True))
     literal: dict[str, Any] = {"guard": False, "mask": False}
     return {
@@ -72,37 +90,38 @@ def blends(settings: Settings, m: Reflectance) -> dict[str, SphereImages]:
 
 def blending(report: Report, settings: Settings) -> Mapping[str, Mapping[str, float]]:
     """Figure 4, and the same in numbers, which it returns by way and column."""
-    m = load(f"{SHOWN}@{FIT}")
-    truth, seen = sphere_pictures(m, [PHI], settings.picture, dilate=False)[0], coverage(settings.picture)
-    pictures = {way: _picture(made, settings) for way, made in blends(settings, m).items()}
-    shown = [Panel(developed(truth, seen), "the truth")]
-    wrong = [Panel(error_picture(np.zeros_like(seen), HIGHEST_ERROR, seen), "difference from the truth")]
-    for way, picture in pictures.items():
-        difference = np.abs(srgb_encode(picture) - srgb_encode(truth)).max(-1)
-        shown.append(Panel(developed(picture, seen), way))
-        wrong.append(Panel(error_picture(difference, HIGHEST_ERROR, seen), f"|{way.partition(') ')[0]} − truth|"))
+    plastic, glossy, matte = (Blended.of(load(text), settings) for text in (f"{SHOWN}@{FIT}", GLOSSY, MATTE))
+    seen = coverage(settings.picture)
+    shown, wrong = {}, {}
+    for name, given in ((SHOWN, plastic), ("a glossier plastic (GGX, alpha 0.1)", glossy)):
+        pictures = {"the truth": given.truth, **given.pictures}
+        shown[name] = [Panel(developed(picture, seen), way) for way, picture in pictures.items()]
+        wrong[name] = [
+            Panel(error_picture(_difference(picture, given.truth), HIGHEST_ERROR, seen), way)
+            for way, picture in given.pictures.items()
+        ]
     report.figure(
         "figure-4",
-        f"Figure 4. {SHOWN}, lit at {PHI:g}°, blended from the pictures at 45° and 90°; below, how far each is from "
-        "the truth (largest of the three channels). The paper's caption gives the second turn as 55°; it is 30°.",
-        {"": shown, "Differences": wrong},
+        f"Figure 4. Spheres lit at {PHI:g}°, blended from the pictures at 45° and 90°. The paper's caption gives the "
+        "second turn as 55°; it is 30°.",
+        shown,
     )
-    return _numbers(report, settings, truth, pictures)
+    report.figure("figure-4-errors", "How far each is from the truth: the largest difference of the channels.", wrong)
+    return _numbers(report, plastic, glossy, matte)
 
 
-def _numbers(
-    report: Report, settings: Settings, truth: Array, pictures: Mapping[str, Array]
-) -> Mapping[str, Mapping[str, float]]:
-    sharp, matte = load(SHARP), load(MATTE)
-    inside = _inside(settings.picture)
-    matte_truth = sphere_pictures(matte, [PHI], settings.picture, dilate=False)[0]
-    lit, found = inside & (matte_truth[..., 0] > 0), {}
-    highlights = {way: _highlights(made) for way, made in blends(settings, sharp).items()}
-    for way, made in blends(settings, matte).items():
-        error = _picture(made, settings)[lit] - matte_truth[lit]
+def _difference(picture: Array, truth: Array) -> Array:
+    return np.asarray(np.abs(srgb_encode(picture) - srgb_encode(truth)).max(-1))
+
+
+def _numbers(report: Report, plastic: Blended, glossy: Blended, matte: Blended) -> Mapping[str, Mapping[str, float]]:
+    lit = matte.truth[..., 0] > 0
+    found = {}
+    for way in plastic.ways:
+        error = matte.pictures[way][lit] - matte.truth[lit]
         found[way] = {
-            "psnr": psnr_of(truth[lit], pictures[way][lit]),
-            "highlights": highlights[way],
+            "psnr": psnr_of(plastic.truth[lit], plastic.pictures[way][lit]),
+            "highlights": _highlights(glossy.ways[way]),
             "matte RMSE": float(np.sqrt(np.mean(error**2))),
             "matte worst": float(np.abs(error).max()),
         }
@@ -119,19 +138,9 @@ def _numbers(
         [[way, *numbers.values()] for way, numbers in found.items()],
         f"Lit at {PHI:g}°, lit pixels of the sphere. Highlights: maxima of the luminance along the equator that stand "
         f"out by {PROMINENCE:.0%} of the brightest, for a diffuser of albedo 0.5 under a GGX lobe, alpha 0.1, F0 0.04, "
-        f"which has {_highlights(sharp)}. The diffuser has albedo 1, so that its radiance is cos θ.",
+        f"which has {_highlights(glossy.m)}. The diffuser has albedo 1, so that its radiance is cos θ.",
     )
     return found
-
-
-def _picture(images: SphereImages, settings: Settings) -> Array:
-    """(size, size, 3) radiance of a sphere in the light of figure 4, in the paper's own form."""
-    light = math.sin(math.radians(PHI)), 0.0, math.cos(math.radians(PHI))
-    return fixed_view(images, sphere_normals(settings.picture), light)
-
-
-def _inside(size: int) -> NDArray[np.bool_]:
-    return np.asarray(np.hypot(*disc(size)) < 1)
 
 
 def _highlights(m: Reflectance) -> int:
