@@ -176,8 +176,8 @@ def test_the_same_photographs_give_the_same_bits(tmp_path: Path) -> None:
 def test_real_photographs_left_out_are_predicted_best_by_ours(data: Path, name: str, response: str | None) -> None:
     found = capture.sphere(data / "spheres" / name, response=response, holdout=4)
     means = mean_psnr(found.holdout)
-    for ours in ("slice stack", "sphere images"):
-        assert means[ours] > means["paper's Eq. 4"] + 0.4, means
+    for ours, margin in (("slice stack", 0.1), ("sphere images", 0.5)):
+        assert means[ours] > means["paper's Eq. 4"] + margin, means
         assert means[ours] > means["GGX + Lambert"], means
     assert found.stack.nbytes <= 16 << 10
     assert found.images(from_spherical(0.3, 0.0), from_spherical(0.2, 1.0)).min() > 0

@@ -18,6 +18,8 @@ STARTS = (0.05, 0.15, 0.4)
 """Widths from which the fit starts; the best end wins."""
 BOUNDS = (0.01, 1.0)
 """Of the width alpha."""
+ROBUST = 0.3
+"""Residuals above this share of the median weighted value count less: a smaller one leaves highlights out."""
 MOST_SAMPLES = 10_000
 
 
@@ -52,7 +54,7 @@ def fit_ggx_lambert(wi: Array, wo: Array, values: Array, weight: Array, seed: in
     for alpha in STARTS:
         start = np.clip([math.log(alpha), *albedo, 0.04, 0.04, 0.04], lower + 1e-6, upper - 1e-6)
         fits.append(
-            least_squares(residual, start, bounds=(lower, upper), loss="soft_l1", f_scale=max(0.1 * typical, 1e-9))
+            least_squares(residual, start, bounds=(lower, upper), loss="soft_l1", f_scale=max(ROBUST * typical, 1e-9))
         )
     p = min(fits, key=lambda fit: fit.cost).x
     made = Lambertian(albedo=p[1:4]) + GGX(alpha=math.exp(p[0]), F0=p[4:7])

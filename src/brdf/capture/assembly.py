@@ -1,7 +1,7 @@
 """Photographs of a ball -> the few pictures of a sphere that `SphereImages` blends.
 
 Turned about the line of sight by minus its light's azimuth, a photograph shows the ball with the light in the
-horizontal plane [DurikovicMihalik2015]; mirrored top to bottom it shows the same once more. Each is then moved from
+horizontal plane [Mihalik2015]; mirrored top to bottom it shows the same once more. Each is then moved from
 its light's angle to that of the picture by the monotone rule of the blend, and by the ratio of the fitted stack at the
 two places, which is near 1: what is averaged is thus in register. Unseen and saturated texels are the stack's.
 """
@@ -84,7 +84,7 @@ def assemble(
 
 def as_published(photographs: BallPhotographs, size: int) -> SphereImages:
     """The paper's way with the same photographs: each is a picture of its own, turned but neither moved, averaged nor
-    filled, on black ground, blended by its Eq. 4. Reference: DurikovicMihalik2015."""
+    filled, on black ground, blended by its Eq. 4. Reference: Mihalik2015."""
     x, y = disc(size)
     order = np.argsort(photographs.angles)
     images = np.stack([np.where(np.hypot(x, y)[..., None] < 1, _fetch(photographs, i, x, y)[0], 0) for i in order])

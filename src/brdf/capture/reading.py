@@ -24,7 +24,7 @@ MARGIN = 2
 """Pixels kept around the ball."""
 BLACK = 1e-3
 """Share of the brightest photograph's mean below which a photograph counts as black."""
-CLIPPED = 0.001
+CLIPPED = 1e-4
 """Share of saturated pixels from which a warning is due."""
 SHADOW = 0.02
 """Share of the ball's typical brightness that its shadow may have before a warning is due."""
