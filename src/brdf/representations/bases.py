@@ -188,6 +188,11 @@ def cos_difference(wi: Vec, wo: Vec) -> Scalar:
     return 0.5 * sqrt(dot(h, h))
 
 
+def cos_difference_of(wi: Array, wo: Array) -> Array:
+    """`cos_difference` of (..., 3) directions, (...)."""
+    return 0.5 * np.asarray(np.linalg.norm(wi + wo, axis=-1))
+
+
 def azimuth(sine: Scalar, cosine: Scalar) -> Angle:
     """The angle of a pair of any length; 0 where it has none."""
     norm = sqrt(sine * sine + cosine * cosine)

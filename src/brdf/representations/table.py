@@ -7,14 +7,14 @@ angles), a warp for each axis (where the nodes lie), the encoding (what is store
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import BrdfError
+from ..errors import BrdfError, UnknownNameError
 from ..formula import Vec
 from ..geometry.arguments import broadcast_directions
 from ..reflectance import Reflectance
@@ -83,21 +83,41 @@ class Table(Reflectance):
         m: Reflectance,
         basis: str = "half",
         warp: str = "bezier",
-        shape: tuple[int, ...] = (64, 64, 16),
+        shape: tuple[int, ...] | int = (64, 64, 16),
         storage: str = "half",
+        filter: str = "linear",
+        alpha: tuple[float, float] | None = None,
+        encoding: str | None = None,
+        method: str = "points",
     ) -> Table:
-        """`m` evaluated at the nodes of a grid; nodes below the horizon repeat the last value above it.
+        """`m` as a table.
 
-        `basis` is "half" (theta_h, theta_d, phi_d), stored as ln(f + 1e-3), or "normal" (theta_i, theta_o, phi_delta),
-        stored as f; `warp` is "uniform", "bezier" or "identity" (even cosines; the normal basis alone) or "merl" (the
-        half basis alone). With four numbers in `shape`, the first for the azimuth (phi_h or phi_i), the table is
-        anisotropic; phi_d then covers half a turn and phi_delta a whole one. Raises ReflectanceError for an anisotropic
-        `m` and three numbers, UnknownNameError for a name.
+        `basis`: "half" (theta_h, theta_d, phi_d), "normal" (theta_i, theta_o, phi_delta), "sheared", "marschner" or
+        "stark"; `warp`: "uniform", "bezier" (with `alpha` for the polar angles and the azimuth), "identity" (even
+        cosines; not in the half basis) or "merl" (the half basis alone). `shape`: nodes over each axis, or N for the
+        preset of 2 N^3 nodes. With four numbers in `shape`, the first for the azimuth (phi_h or phi_i), the table is
+        anisotropic; phi_d then covers half a turn and phi_delta a whole one.
+
+        `encoding`: what is stored, "f", "sqrt", "cube-root" or "log" (ln(f + 1e-3)); None: "log" over half vectors.
+        `storage`: see `storage`; `filter`: see `filters`. `method`: "points" evaluates `m` at the nodes, those below
+        the horizon repeating the last value above it; "projection" takes the table nearest to `m` between them, which
+        keeps integrals where a table shrinks.
+
+        Raises ReflectanceError for an anisotropic `m` and three numbers, UnknownNameError for a name, ParameterError
+        for an alpha outside [0, 1].
         """
         from .bake import bake_points
-        from .layouts import named_layout
+        from .layouts import named_layout, shape_of
+        from .projection import bake_projection
 
-        return bake_points(m, named_layout(basis, warp, shape, storage))
+        methods: dict[str, Callable[[Reflectance, Layout], Table]] = {
+            "points": bake_points,
+            "projection": bake_projection,
+        }
+        if method not in methods:
+            raise UnknownNameError("bake method", method, methods)
+        sizes = shape_of(basis, shape, m.isotropic) if isinstance(shape, int) else tuple(shape)
+        return methods[method](m, named_layout(basis, warp, sizes, storage, filter, alpha, encoding))
 
     # ---- the contract ------------------------------------------------------------------------------------------
 

@@ -149,7 +149,7 @@ class StarkBasis(_Reciprocal):
 def _reach(theta_h: Array, theta_d: Array) -> Array:
     """The largest |cos phi_d| above the horizon."""
     sines, cosines = np.sin(theta_h) * np.sin(theta_d), np.cos(theta_h) * np.cos(theta_d)
-    return np.minimum(1, np.maximum(cosines, 0) / np.maximum(sines, 1e-300))
+    return np.asarray(np.minimum(1, np.maximum(cosines, 0) / np.maximum(sines, 1e-300)))
 
 
 def _arccos(larger: Array, apart: Array, a: Array, b: Array) -> Array:
