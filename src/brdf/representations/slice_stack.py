@@ -44,7 +44,7 @@ CONSTANT_BYTES = 36
 CHOICE_BYTES = 16 << 10
 """The split of bigger budgets is chosen at this size, which is quick."""
 
-MEASURED_FLOOR = 0.02
+MEASURED_FLOOR = 0.002
 """The quantile of measured values that counts as the diffuse floor: their minimum is noise."""
 
 SYMMETRY_TOLERANCE = 0.02
@@ -109,7 +109,7 @@ class SliceStack:
             return bake_points(m, layouts[0], floor_quantile, symmetrise=measured)
         best = 0
         if not anisotropic:
-            best = choose(m, SliceStack.layouts(min(size, CHOICE_BYTES)), floor_quantile, symmetrise=measured)
+            best = choose(m, SliceStack.layouts(min(size, CHOICE_BYTES)), floor_quantile, symmetrise=False)
         return bake_least_squares(m, layouts[best], floor_quantile, symmetrise=measured)
 
 
