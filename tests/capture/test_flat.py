@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from brdf import load, models
+from brdf import container, load, models
 from brdf.capture import FlatSample, flat, simulate
 from brdf.capture.flat_sample import sample
 from brdf.capture.flat_sample.arc import choose_arc
@@ -88,14 +88,14 @@ def curved(light: np.ndarray) -> np.ndarray:
     return np.asarray(0.6 * light**0.45 + 0.4 * np.sin(light * math.pi / 2) ** 0.9)
 
 
-def bracketed(folder: Path, camera: Camera, noise: float = 0.0) -> None:
+def bracketed(folder: Path, camera: Camera, noise: float = 0.0, stray: float = 0.0) -> None:
     """Four exposures a lamp, each four times the one before, from far too dark to far too bright."""
     rng = np.random.default_rng(3)
     folder.mkdir()
     lines = []
     for number, image in enumerate(TRUTH.images):
         for step in range(4):
-            light = EXPOSURE * image * 4.0 ** (step - 1) + noise * rng.standard_normal(image.shape)
+            light = (EXPOSURE / 4 * image + stray) * 4.0**step + noise * rng.standard_normal(image.shape)
             photograph(folder / f"{number}-{step}.png", light, camera, seconds=4.0**step / 1000)
             lines.append(f"{number}-{step}.png {ANGLES[number]}")
     (folder / "angles.txt").write_text("\n".join(lines))
@@ -110,6 +110,19 @@ def test_brackets_are_merged_beyond_the_range_of_one(tmp_path: Path) -> None:
     truth = TRUTH.images[3][dark]
     assert relative(merged, truth) < 0.6 * relative(single, truth)  # shadows gain most
     assert found.checks.clipped.max() == 0
+
+
+def test_stray_light_grows_with_the_exposure(tmp_path: Path) -> None:
+    folder = tmp_path / "b"
+    bracketed(folder, srgb_encode, stray=0.03)
+    photograph(folder / "dark.png", np.full((48, 48, 3), 0.03 * 2.0), seconds=2.0 / 1000)
+    white = np.full((48, 48, 3), 0.99 * math.cos(math.radians(5)) / math.pi)
+    photograph(folder / "white.png", EXPOSURE * white / 16 + 0.03 / 4, seconds=0.25 / 1000)
+    found = flat(folder)
+    assert found.scale_known
+    assert relative(found.images, TRUTH.images) < 0.02
+    (folder / "dark.png").unlink()
+    assert relative(flat(folder).images, TRUTH.images) > 0.1  # the test can tell
 
 
 def test_an_unknown_response_is_recovered_from_brackets(tmp_path: Path) -> None:
@@ -278,6 +291,14 @@ def test_another_process_reads_the_material(tmp_path: Path) -> None:
     code = f"import brdf; print(brdf.load({str(place / 'shading-map.safetensors')!r}).stack.shape)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120, check=True)
     assert done.stdout == "(48, 48)\n"
+
+
+def test_pictures_without_their_angles_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(ParameterError, match="pictures must be \\(M, H, W, 3\\) with M elevations"):
+        FlatSample(TRUTH.images, TRUTH.elevations[:2])
+    container.save(tmp_path / "pictures.safetensors", {"name": "", "source": ""}, {"images": TRUTH.images})
+    with pytest.raises(CorruptFileError, match="holds no pictures of a flat sample"):
+        FlatSample.load(tmp_path)
 
 
 def test_nothing_is_left_of_a_result_that_cannot_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,7 +15,7 @@ from ...color import luminance
 from ...errors import CorruptFileError, FileError, ParameterError
 from ..photographs import EXTENSIONS, Photograph, read_photograph, response_of
 from .arrangement import Lamp, read_arrangement
-from .exposures import Curve, exposure_of, merged, recover_response, require_like, with_exposures
+from .exposures import Curve, Dark, exposure_of, merged, recover_response, require_like, with_exposures
 from .rectify import Cutter
 from .sample import FlatSample
 
@@ -76,12 +76,12 @@ def flat(
     first = read_photograph(shots[0][0][0])
     curve = _curve(response, first, shots, tell)
     cutter = Cutter(first.pixels.shape[:2], None if corners is None else np.asarray(corners, float), crop, size)
-    dark_light = None if dark_path is None else _light(dark_path, curve, first)
+    off = None if dark_path is None else _dark(dark_path, curve, first, timed)
     images = np.empty((len(lamps), *cutter.out, 3), np.float32)
     clipped = []
     for number, bracket in enumerate(shots):
         tell(f"photographs of lamp {number + 1} of {len(lamps)}")
-        light, lost = merged(bracket, curve, dark_light, first)
+        light, lost = merged(bracket, curve, off, first)
         images[number] = cutter.cut(light)
         clipped.append(lost)
     _require_light(images, lamps)
@@ -90,11 +90,12 @@ def flat(
     said = [f"{count} photographs of {width} x {height} pixels under {len(lamps)} lamps, response {curve.name}", *facts]
     absolute = False
     if white_path is not None:
-        field, seconds = _field(white_path, curve, dark_light, first, cutter), exposure_of(white_path)
+        seconds = exposure_of(white_path) if timed else None
+        field = _field(white_path, curve, off, seconds, first, cutter)
         absolute = albedo is None and (not timed or seconds is not None)
         if absolute:
-            field = field / ((seconds or 1.0) if timed else 1.0)
-            images *= np.float32(WHITE_ALBEDO * math.cos(math.radians(lamps[0].elevation)) / math.pi) / field
+            level = WHITE_ALBEDO * math.cos(math.radians(lamps[0].elevation)) / math.pi
+            images *= np.float32(level * (seconds or 1.0)) / field
             said.append(f"scale: {white_path.name} is a diffuser of albedo {WHITE_ALBEDO:g} under the highest lamp")
         else:
             images /= field / field.mean()
@@ -133,13 +134,15 @@ def _curve(
     return recover_response(shots)
 
 
-def _light(path: Path, curve: Curve, first: Photograph) -> Array:
+def _dark(path: Path, curve: Curve, first: Photograph, timed: bool) -> Dark:
     picture = read_photograph(path)
     require_like(first, picture, path)
-    return np.asarray(curve.linear(picture.pixels))
+    return Dark(curve.linear(picture.pixels), exposure_of(path) if timed else None)
 
 
-def _field(path: Path, curve: Curve, dark: Array | None, first: Photograph, cutter: Cutter) -> Array:
+def _field(
+    path: Path, curve: Curve, dark: Dark | None, seconds: float | None, first: Photograph, cutter: Cutter
+) -> Array:
     """(*out, 3) the light of the white reference, smoothed. Raises CorruptFileError."""
     from scipy.ndimage import gaussian_filter
 
@@ -150,7 +153,7 @@ def _field(path: Path, curve: Curve, dark: Array | None, first: Photograph, cutt
             path, f"{picture.saturated().mean():.1%} of the white reference is saturated; expose shorter."
         )
     light = curve.linear(picture.pixels)
-    field = cutter.cut(light if dark is None else light - dark)
+    field = cutter.cut(light if dark is None else light - dark.during(seconds))
     blur = SMOOTHED * max(cutter.out)
     field = gaussian_filter(field, (blur, blur, 0), mode="nearest")
     if not field.min() > BLACK * max(field.max(), 1e-9):

@@ -43,6 +43,19 @@ class RecoveredResponse:
 Curve = Response | RecoveredResponse
 
 
+@dataclass(frozen=True)
+class Dark:
+    """What the camera sees with the lamp off: stray light, which grows with the exposure."""
+
+    light: Array
+    seconds: float | None
+    """its exposure; None where that is not known, or where all photographs count as equally exposed"""
+
+    def during(self, seconds: float | None) -> Array:
+        """The light of another exposure; of the same where either is not known."""
+        return self.light if self.seconds is None or seconds is None else self.light * (seconds / self.seconds)
+
+
 def recover_response(brackets: Sequence[Sequence[tuple[Path, float]]]) -> RecoveredResponse:
     """The response curve from photographs (8 bits) of several views with their exposures [s]. Reference: Debevec1997.
 
@@ -80,7 +93,7 @@ def _grid(path: Path) -> NDArray[np.uint8]:
 
 
 def merged(
-    shots: Sequence[tuple[Path, float]], curve: Curve, dark: Array | None, first: Photograph
+    shots: Sequence[tuple[Path, float]], curve: Curve, dark: Dark | None, first: Photograph
 ) -> tuple[Array, float]:
     """Light of one view (H, W, 3) per second of exposure, and the share of its pixels that no exposure holds.
 
@@ -98,7 +111,7 @@ def merged(
         require_like(first, picture, path)
         light = curve.linear(picture.pixels)
         if dark is not None:
-            light = light - dark
+            light = light - dark.during(seconds)
         saturated = picture.saturated()
         lost = lost & saturated
         if len(shots) == 1:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ... import container
-from ...errors import CorruptFileError
+from ...errors import CorruptFileError, ParameterError
 from ...reflectance import Reflectance
 from ...representations.shading_map import ShadingMap
 from ..folders import new_folder
@@ -31,7 +31,10 @@ REPORT, NUMBERS = "report.txt", "report.json"
 
 @dataclass(frozen=True)
 class FlatSample:
-    """Linear pictures of one sample by a fixed camera straight above, ordered by the lamp's angle."""
+    """Linear pictures of one sample by a fixed camera straight above, ordered by the lamp's angle.
+
+    Raises ParameterError for arrays that do not fit.
+    """
 
     images: NDArray[np.float32]
     """(M, H, W, 3) radiance [1/sr] under irradiance 1 on a plane that faces the lamp"""
@@ -46,6 +49,10 @@ class FlatSample:
     facts: Sequence[str] = field(default_factory=tuple)
 
     def __post_init__(self) -> None:
+        count = len(self.images) if self.images.ndim == 4 and self.images.shape[-1] == 3 and self.images.size else 0
+        if not count or np.shape(self.elevations) != (count,):
+            shapes = f"{self.images.shape} and {np.shape(self.elevations)}"
+            raise ParameterError(f"pictures must be (M, H, W, 3) with M elevations, got {shapes}")
         order = np.argsort(self.elevations, kind="stable")
         if (np.diff(order) < 0).any():
             object.__setattr__(self, "images", self.images[order])
@@ -133,5 +140,5 @@ class FlatSample:
                 arrays["images"], arrays["elevations"], str(header["name"]), str(header["source"]),
                 bool(header["scale_known"]), arrays["clipped"], tuple(map(str, header["facts"])),
             )  # fmt: skip
-        except (KeyError, TypeError) as error:
+        except (KeyError, TypeError, ParameterError) as error:
             raise CorruptFileError(path, f"holds no pictures of a flat sample ({error}).") from None
