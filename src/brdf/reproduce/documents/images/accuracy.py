@@ -122,12 +122,12 @@ def _bytes(report: Report, settings: Settings, errors: Errors) -> None:
 
 
 def equal_table(errors: Errors, decibels: float) -> tuple[str, float] | None:
-    """The smallest of the tables and stacks whose mean PSNR is at least so high, and its KB."""
+    """The smallest of the plain tables whose mean PSNR is at least so high, and its KB."""
     found = [
         (key, method)
-        for method in errors.methods("bytes")
+        for method in TABLES.values()
         for key in errors.keys("bytes")
-        if "pictures" not in method and errors.mean("bytes", method, key) >= decibels
+        if errors.mean("bytes", method, key) >= decibels
     ]
     if not found:
         return None

@@ -146,7 +146,7 @@ def _memory(report: Report, errors: Errors, texels: int) -> None:
         other = errors.mean("bytes", method, kilobytes)
         text = (
             f"at no more error the pictures are smaller: four of {texels}² with {PAPER} have {decibels:.1f} dB, a "
-            f"{method} of {kilobytes:g} KB {other:.1f} dB"
+            f"{method}, of {kilobytes:g} KB {other:.1f} dB"
         )
         checks[text] = kilobytes * 1024 >= PAPER_BYTES
     report.claim("This approach is an alternative to the tabulated BRDF with less memory consumption.", checks)

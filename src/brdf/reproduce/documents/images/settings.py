@@ -17,6 +17,9 @@ METAL = (0.0, 30.0, 60.0, 90.0, 120.0, 150.0)
 COUNTS = (2, 3, 4, 6, 8, 12, 16)
 """Numbers of pictures."""
 
+ALWAYS = ("yellow-plastic", "color-changing-paint1", "red-specular-plastic", "alum-bronze")
+"""Materials of every run: the paper's claims are on plastics, and on metals and shifting colours."""
+
 VISIBLE = 40.0
 """dB: an RMS error of 1 % of full scale, 2.5 of 255 levels, at which pictures side by side look alike."""
 
@@ -58,5 +61,7 @@ def chosen(settings: Settings) -> list[str]:
     found = [name for name in materials.names() if FIT in materials.fits(name)]
     if settings.materials is None:
         return found
-    step = len(found) / settings.materials
-    return [found[int(i * step)] for i in range(settings.materials)]
+    others = [name for name in found if name not in ALWAYS]
+    step = len(others) / max(1, settings.materials - len(ALWAYS))
+    spread = [others[int(i * step)] for i in range(settings.materials - len(ALWAYS))]
+    return sorted([*ALWAYS[: settings.materials], *spread])
