@@ -186,7 +186,7 @@ def test_samples_integrate_to_what_is_reflected() -> None:
     np.testing.assert_array_equal(drawn.pdf, h.pdf(drawn.wi, wo, uv))
 
 
-@pytest.mark.parametrize("law", ["positivity", "sampling", "density", "weight", "isotropy"])
+@pytest.mark.parametrize("law", ["positivity", "sampling", "density", "weight", "isotropy", "gradients"])
 def test_laws_hold(law: str) -> None:
     result = next(found for found in laws.ALL if found.name == law)(sample("cloth", brdf=GGX(alpha=0.4)))
     assert result.status == "holds", result

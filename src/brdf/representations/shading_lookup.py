@@ -33,7 +33,7 @@ def shading(bound: Any, r: Scalar, cosine: Scalar) -> Scalar:
 
 def lit_texture(bound: Any, r: Scalar, cosine: Scalar) -> Scalar:
     """The brightest picture as a texture that is lit."""
-    return bound.highest + 0.0 * r
+    return bound.stack.ends(bound)[1] + 0.0 * r
 
 
 def radiance(bound: Any, r: Scalar, cosine: Scalar) -> Scalar:
@@ -65,9 +65,10 @@ def luminous(rgb: Vec) -> Scalar:
 def looked_up(bound: Any, reflected: Scalar, cosine: Scalar, technique: Technique) -> Vec:
     """S(r) / cosine for r = reflected · cosine, without a quotient of zeros at grazing light."""
     r = technique(bound, reflected * cosine, cosine)
-    level = clip(r, bound.lowest, bound.highest)
-    over = level if bound.above == "scale" else maximum(r, bound.lowest)
     stack = bound.stack
+    lowest, highest = stack.ends(bound)
+    level = clip(r, lowest, highest)
+    over = level if bound.above == "scale" else maximum(r, lowest)
     value: Vec = stack.value(bound, stack.place(*bound.uv, bound.tiles), level) * (reflected / over)
     return value
 

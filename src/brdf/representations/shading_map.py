@@ -166,7 +166,7 @@ class ShadingMap(Parameterised, Reflectance):
     def values(self) -> dict[str, Any]:
         angles = {f"angle_{k + 1}": float(angle) for k, angle in enumerate(self.elevations)}
         own = super().values | self.stack.values | (angles if self.technique == "angular" else {})
-        return own | {"lowest": self.stack.lowest, "highest": self.stack.highest} | self._of_brdf("values")
+        return own | self._of_brdf("values")
 
     @property
     def textures(self) -> dict[str, NDArray[Any]]:

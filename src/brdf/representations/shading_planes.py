@@ -155,7 +155,7 @@ class _Curves(Planes):
 
     def value(self, bound: Any, place: Place, level: Scalar) -> Vec:
         p_r, p_g, p_b, q_r, q_g, q_b = texture2d(bound.planes, *place)
-        x = level * (1.0 / bound.highest)
+        x = level * (1.0 / self.ends(bound)[1])
         return Vec(*(type(self).curve(x, p, q) for p, q in ((p_r, q_r), (p_g, q_g), (p_b, q_b))))
 
     def picture(self, level: float) -> Picture:

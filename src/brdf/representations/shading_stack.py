@@ -137,6 +137,11 @@ class Stack(ABC):
         down, right = -v * tiles, u * tiles
         return _within_rim(down, rows), _within_rim(right, columns)
 
+    def ends(self, bound: Any) -> tuple[Scalar, Scalar]:
+        """The lowest and the highest level."""
+        highest = getattr(bound, self.node_names[-1])
+        return (BOTTOM * highest if self.bottomless else bound.node_1), highest
+
     def rises(self, bound: Any, level: Scalar) -> list[Scalar]:
         """How far the level lies through each interval between nodes, 0 to 1: piecewise linear without a search."""
         nodes = [getattr(bound, name) for name in self.node_names]
