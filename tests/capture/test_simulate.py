@@ -151,6 +151,7 @@ def test_a_full_btf_agrees_with_the_pictures_from_above() -> None:
         ({"elevations": (0, 90)}, r"elevations must be angles from the normal in \[0, 90\) degrees"),
         ({"elevations": ()}, "at least one"),
         ({"size": 0}, "size must lie between 1 and 4096 pixels, got 0"),
+        ({"brdf": models.Mirror()}, "Mirror mirrors or transmits; a relief needs rough reflection"),
         ({"material": MicroSurface(np.zeros((12, 12)), WHITE), "size": 5}, "size must divide the 12 texels"),
     ],
 )

@@ -17,11 +17,19 @@ Floats = NDArray[np.float32]
 
 @dataclass(frozen=True)
 class Layer:
-    """A reflectance that counts as much as its weight says."""
+    """A reflectance that counts as much as its weight says.
+
+    Raises ParameterError for a reflectance without values: a mirror, glass.
+    """
 
     reflectance: Reflectance
     weight: Floats
     """(n, n, 3), or (1, 1, 3) for the same everywhere"""
+
+    def __post_init__(self) -> None:
+        m = self.reflectance
+        if m.has_delta or m.transmits:
+            raise ParameterError(f"{m.name or type(m).__name__} mirrors or transmits; a relief needs rough reflection")
 
     def weights(self, texels: NDArray[np.int32]) -> Floats:
         """(N, 3) or (1, 3) weights of the texels, numbered row by row."""

@@ -56,6 +56,7 @@ class Tracer:
         light = Light(np.empty((count, 3), np.float32), np.empty(count, np.float32), None)
         if self._bounce:
             light.emitted = np.empty((count, 3), np.float32)
+            _ = self._albedos  # found once, not by each thread
 
         def fill(start: int, stop: int) -> None:
             wi_local, visible = light.directions[start:stop], np.empty(stop - start, np.bool_)
@@ -78,7 +79,7 @@ class Tracer:
             radiance[start:stop] = self._towards(w, light, texels[start:stop])
 
         if light.emitted is not None:
-            _ = self._neighbours  # found once, by all threads together
+            _ = self._neighbours  # as above
         self._in_blocks(fill)
         return radiance
 
