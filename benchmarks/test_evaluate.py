@@ -10,7 +10,7 @@ import pytest
 import brdf
 from brdf.formula import engine
 from brdf.formula.vec import Vec
-from conftest import best_time, million_per_second, mitsuba_time
+from benchmarks.conftest import best_time, million_per_second, mitsuba_time
 
 CHUNK = 16_384
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import brdf
-from conftest import best_time, million_per_second, mitsuba_time
+from benchmarks.conftest import best_time, million_per_second, mitsuba_time
 
 COUNT = 4_000_000
 
