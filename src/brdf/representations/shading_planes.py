@@ -12,10 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..color import LUMINANCE
 from ..formula import Scalar, Vec, maximum, pow, texture2d
+from ..threads import in_ranges, map_threads
 from .shading_stack import Picture, Place, Stack, with_rim
 
 LEVELS = 255
 """Steps of an 8-bit number."""
+
+
+TEXELS_AT_ONCE = 16384
 
 
 class Planes(Stack):
@@ -32,12 +36,17 @@ class Planes(Stack):
     def quantised(planes: NDArray[np.float32]) -> tuple[NDArray[np.uint8], NDArray[np.float64], NDArray[np.float64]]:
         """Codes, low and span of (rows, columns, C) numbers."""
         flat = planes.reshape(-1, planes.shape[-1])
-        low, high = flat.min(0), flat.max(0)
-        scale = LEVELS / np.where(high > low, high - low, 1)
-        codes = flat - low
-        codes *= scale.astype(np.float32)
-        codes += np.float32(0.5)
-        return codes.astype(np.uint8).reshape(planes.shape), low.astype(np.float64), (high - low).astype(np.float64)
+        starts = range(0, len(flat), TEXELS_AT_ONCE)
+        ends = map_threads(lambda start: _range(flat[start : start + TEXELS_AT_ONCE]), starts)
+        low, high = np.min([least for least, _ in ends], 0), np.max([most for _, most in ends], 0)
+        scale = np.float32(LEVELS) / np.where(high > low, high - low, np.float32(1))
+        codes = np.empty(flat.shape, np.uint8)
+
+        def fill(start: int, stop: int) -> None:
+            codes[start:stop] = (flat[start:stop] - low) * scale + np.float32(0.5)
+
+        in_ranges(fill, len(flat), TEXELS_AT_ONCE)
+        return codes.reshape(planes.shape), low.astype(np.float64), (high - low).astype(np.float64)
 
     @cached_property
     def planes(self) -> NDArray[np.float32]:
@@ -66,6 +75,12 @@ class Planes(Stack):
     @classmethod
     def restored(cls, header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> Self:
         return cls(*_checked(header, arrays), header["nodes"], header["wraps"])
+
+
+def _range(numbers: NDArray[np.float32]) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """Least and greatest of each column of (N, C); rows of the transpose are quick to go through."""
+    columns = np.ascontiguousarray(numbers.T)
+    return columns.min(1), columns.max(1)
 
 
 def _checked(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> tuple[NDArray[np.uint8], Any, Any]:
