@@ -117,6 +117,10 @@ class PrincipalPictures(Planes):
             _row_name(row, node): rows[row, node] for row in range(len(rows)) for node in range(len(self.nodes))
         }
 
+    @property
+    def nbytes(self) -> int:
+        return super().nbytes + 4 * (self.mean.size + self.basis.size)
+
     def value(self, bound: Any, place: Place, level: Scalar) -> Vec:
         rises = self.rises(bound, level)
 
