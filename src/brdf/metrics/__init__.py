@@ -11,6 +11,7 @@ Delta distributions (mirrors) show in no picture and at no pair of directions: t
 
 from .albedo import ALBEDO_ANGLES, directional_albedo
 from .comparison import Comparison, compare, rank
+from .importance import Errors, ErrorsAgainst, display_rms, importance_errors, importance_pairs, relative_rms
 from .pairs import (
     LOG_OFFSET,
     METRICS,
@@ -42,8 +43,40 @@ from .sphere import (
 )
 
 __all__ = [
-    "ALBEDO_ANGLES", "LIGHT_ANGLES", "LOG_OFFSET", "METRICS", "SPHERE_SIZE", "Comparison", "DeltaE", "Metric", "Pairs",
-    "compare", "cosine_weighted_l2", "cube_root", "delta_e", "delta_e_of", "direction_metrics", "direction_pairs",
-    "directional_albedo", "error_map", "log_relative", "logarithmic", "psnr", "psnr_by_angle", "psnr_by_light",
-    "psnr_of", "rank", "relative_rmse", "relative_rmse_of", "sphere_lights", "sphere_pairs", "sphere_radiance",
+    "ALBEDO_ANGLES",
+    "LIGHT_ANGLES",
+    "LOG_OFFSET",
+    "METRICS",
+    "SPHERE_SIZE",
+    "Comparison",
+    "DeltaE",
+    "Errors",
+    "ErrorsAgainst",
+    "Metric",
+    "Pairs",
+    "compare",
+    "cosine_weighted_l2",
+    "cube_root",
+    "delta_e",
+    "delta_e_of",
+    "direction_metrics",
+    "direction_pairs",
+    "directional_albedo",
+    "display_rms",
+    "error_map",
+    "importance_errors",
+    "importance_pairs",
+    "log_relative",
+    "logarithmic",
+    "psnr",
+    "psnr_by_angle",
+    "psnr_by_light",
+    "psnr_of",
+    "rank",
+    "relative_rms",
+    "relative_rmse",
+    "relative_rmse_of",
+    "sphere_lights",
+    "sphere_pairs",
+    "sphere_radiance",
 ]  # fmt: skip

@@ -142,8 +142,8 @@ def _slices(count: int) -> Warp:
     return FarPower(math.radians(180 - 64 / count) / 2, exponent=1.5)
 
 
-def parse_budget(budget: str | int) -> int:
-    """Bytes of 24576, "24576", "24K" or "1M". Raises ParameterError."""
+def parse_budget(budget: str | int, kind: str = "slice stack", least: int = LEAST_BYTES, most: int = MOST_BYTES) -> int:
+    """Bytes of 24576, "24576", "24K" or "1M". Raises ParameterError unless there are between `least` and `most`."""
     text = str(budget).strip().upper().removesuffix("B")
     units = {"K": 1 << 10, "M": 1 << 20}
     unit = units.get(text[-1:], 1)
@@ -151,10 +151,8 @@ def parse_budget(budget: str | int) -> int:
     if not digits.isdecimal():
         raise ParameterError(f"a budget is a number of bytes such as 16384, '16K' or '1M', got {budget!r}")
     size = int(digits) * unit
-    if not LEAST_BYTES <= size <= MOST_BYTES:
-        raise ParameterError(
-            f"a slice stack has between {LEAST_BYTES} bytes and {MOST_BYTES >> 20} MB, got a budget of {size} bytes"
-        )
+    if not least <= size <= most:
+        raise ParameterError(f"a {kind} has between {least} bytes and {most >> 20} MB, got a budget of {size} bytes")
     return size
 
 

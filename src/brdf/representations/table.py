@@ -85,27 +85,40 @@ class Table(Reflectance):
         warp: str = "bezier",
         shape: tuple[int, ...] | int = (64, 64, 16),
         storage: str = "half",
-        filter: str = "linear",
-        alpha: tuple[float, float] | None = None,
+        filter: str | None = None,
+        alpha: tuple[float, float] | tuple[float, float, float] | str | None = None,
         encoding: str | None = None,
         method: str = "points",
+        budget: str | int | None = None,
+        quality: str | None = None,
     ) -> Table:
         """`m` as a table.
 
         `basis`: "half" (theta_h, theta_d, phi_d), "normal" (theta_i, theta_o, phi_delta), "sheared", "marschner" or
-        "stark"; `warp`: "uniform", "bezier" (with `alpha` for the polar angles and the azimuth), "identity" (even
-        cosines; not in the half basis) or "merl" (the half basis alone). `shape`: nodes over each axis, or N for the
-        preset of 2 N^3 nodes. With four numbers in `shape`, the first for the azimuth (phi_h or phi_i), the table is
-        anisotropic; phi_d then covers half a turn and phi_delta a whole one.
+        "stark"; `warp`: "uniform", "bezier" (with `alpha`: for the polar angles and the azimuth, or for every axis,
+        or how to choose it, "total-intensity" or "measured"), "identity" (even cosines; not in the half basis) or
+        "merl" (the half basis alone). `shape`: nodes over each axis, or N for the preset of 2 N^3 nodes. With four
+        numbers in `shape`, the first for the azimuth (phi_h or phi_i), the table is anisotropic; phi_d then covers half
+        a turn and phi_delta a whole one.
 
         `encoding`: what is stored, "f", "sqrt", "cube-root" or "log" (ln(f + 1e-3)); None: "log" over half vectors.
-        `storage`: see `storage`; `filter`: see `filters`. `method`: "points" evaluates `m` at the nodes, those below
-        the horizon repeating the last value above it; "projection" takes the table nearest to `m` between them, which
-        keeps integrals where a table shrinks.
+        `storage`: see `storage`; `filter`: see `filters`, by default linear. `method`: "points" evaluates `m` at the
+        nodes, those below the horizon repeating the last value above it; "projection" takes the table nearest to `m`
+        between them, which keeps integrals where a table shrinks.
+
+        With a `budget` (bytes, or a text such as "64K") all of these but `filter` are searched for the table of that
+        size nearest to `m`: see `budget.search`; `quality="adaptive"` tries fewer, in a second or two.
 
         Raises ReflectanceError for an anisotropic `m` and three numbers, UnknownNameError for a name, ParameterError
-        for an alpha outside [0, 1].
+        for an alpha outside [0, 1], an impossible budget, or an option beside a budget that searches for it.
         """
+        if budget is not None or quality is not None:
+            from .budget import bake_budget
+
+            fixed = {"basis": basis, "warp": warp, "shape": shape, "storage": storage, "alpha": alpha,
+                     "encoding": encoding, "method": method}  # fmt: skip
+            return bake_budget(m, budget, quality, filter, fixed)
+        from .alpha_search import with_alpha
         from .bake import bake_points
         from .layouts import named_layout, shape_of
         from .projection import bake_projection
@@ -117,7 +130,11 @@ class Table(Reflectance):
         if method not in methods:
             raise UnknownNameError("bake method", method, methods)
         sizes = shape_of(basis, shape, m.isotropic) if isinstance(shape, int) else tuple(shape)
-        return methods[method](m, named_layout(basis, warp, sizes, storage, filter, alpha, encoding))
+        pair = alpha if isinstance(alpha, tuple) and len(alpha) == 2 else None if alpha is None else (0.5, 0.5)
+        layout = named_layout(basis, warp, sizes, storage, filter or "linear", pair, encoding)
+        if alpha is not None and pair is not alpha:
+            layout = with_alpha(m, layout, alpha)
+        return methods[method](m, layout)
 
     # ---- the contract ------------------------------------------------------------------------------------------
 
