@@ -96,7 +96,7 @@ def adapt(
     for turn in range(rounds + 1):
         warps = tuple(Spline(b.extent, b, tuple(map(float, d))) for b, d in zip(bases, densities, strict=True))
         layout = Layout(chosen, warps, shape_of(proportions, entries), encoding)
-        error = error_of(layout) if error_of and turn else -turn
+        error = error_of(layout) if error_of else -turn
         if error < least:
             best, least = Adapted(layout, proportions), error
         if turn == rounds:

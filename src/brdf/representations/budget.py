@@ -25,6 +25,7 @@ from .adaptive_layout import KNOTS, STARTS, Adapted, adapt
 from .alpha_search import with_alpha
 from .bake import bake_points, require_isotropic, validity
 from .encoding import Encoding, Log, Plain, Root
+from .filters import texture_filter
 from .layout import Layout
 from .layouts import named_layout
 from .slice_stack import MEASURED_FLOOR, SliceStack, is_measured, parse_budget
@@ -81,7 +82,7 @@ class Candidate:
     @property
     def family(self) -> str:
         """The first word of the name: identity, uniform, bezier, half, stack, adaptive."""
-        return self.name.split()[0]
+        return self.name.replace(",", " ").split()[0]
 
 
 @dataclass(frozen=True)
@@ -107,11 +108,14 @@ def search(
     """Tables of `m` of at most `budget` bytes (a number, or a text such as "64K"), and the best of them.
 
     `quality` "adaptive" tries the adapted tables alone, which is quicker; `filters` are those adapted tables may use.
-    Deterministic. Raises ParameterError for an impossible budget, ReflectanceError when `m` is anisotropic.
+    Deterministic. Raises ParameterError for an impossible budget, ReflectanceError when `m` is anisotropic,
+    UnknownNameError for a quality or a filter.
     """
     size = parse_budget(budget, "searched table", LEAST_BYTES)
     if quality not in QUALITIES:
         raise UnknownNameError("quality", quality, QUALITIES)
+    for name in filters:
+        texture_filter(name)
     require_isotropic(m)
     trial = _Trial(m, size)
     found = [] if quality == "adaptive" else [*trial.paper(), *trial.half_vector(), *trial.stack()]
