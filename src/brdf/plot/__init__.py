@@ -14,10 +14,11 @@ from .fresnel_curves import fresnel
 from .maps import slices, solid
 from .overview import overview
 from .page import save
+from .pareto import candidates
 from .pictures import spheres, white_out
 from .polar import cartesian, lobes
 
 __all__ = [
-    "albedo", "cartesian", "compared", "comparison", "coverage", "fresnel", "lobes", "overview", "profile", "save",
-    "slices", "solid", "spheres", "white_out",
+    "albedo", "candidates", "cartesian", "compared", "comparison", "coverage", "fresnel", "lobes", "overview",
+    "profile", "save", "slices", "solid", "spheres", "white_out",
 ]  # fmt: skip
