@@ -24,7 +24,9 @@ As = Annotated[
         help="slice-stack (16 KB and up), sphere-images (pictures of a sphere) or table (half vector).",
     ),
 ]
-Budget = Annotated[str | None, typer.Option(metavar="BYTES", help="Of a slice stack or a table, at most: 16K, 24576, 1M. [16K]")]
+Budget = Annotated[
+    str | None, typer.Option(metavar="BYTES", help="Of a slice stack or a table, at most: 16K, 24576, 1M. [16K]")
+]
 Anisotropic = Annotated[
     bool, typer.Option("--anisotropic", help="A slice stack with one more axis, of many times the size.")
 ]
