@@ -19,9 +19,9 @@ Curve = tuple[Sequence[float], Sequence[float]]
 
 def curves(
     series: Mapping[str, Curve], x_label: str, y_label: str, x_ticks: Mapping[float, str] | None = None,
-    x_scale: str = "linear", y_scale: str = "linear",
+    x_scale: str = "linear", y_scale: str = "linear", marker: str = "o",
 ) -> Figure:  # fmt: skip
-    """Curves by name, each (x, y); `x_ticks`: the words at places of the horizontal axis."""
+    """Curves by name, each (x, y); `x_ticks`: the words at places of the horizontal axis; `marker` "" for none."""
     import matplotlib
     from matplotlib.figure import Figure
 
@@ -32,7 +32,7 @@ def curves(
         for number, (name, (x, y)) in enumerate(series.items()):
             colour = (*COLOURS, "#7F7F7F")[number % (len(COLOURS) + 1)]
             axes.plot(
-                x, y, color=colour, ls=DASHES[number % len(DASHES)], lw=1.6, marker="o", markersize=3.5, label=name
+                x, y, color=colour, ls=DASHES[number % len(DASHES)], lw=1.6, marker=marker, markersize=3.5, label=name
             )
         axes.set(xscale=x_scale, yscale=y_scale, xlabel=x_label, ylabel=y_label)
         if x_ticks is not None:
