@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 from collections import defaultdict
 from collections.abc import Sequence
@@ -16,7 +17,7 @@ from ....render.progress import Progress
 from ....representations.alpha_search import STEPS, total_intensity, with_alpha
 from ....representations.layouts import named_layout
 from ....threads import map_threads
-from .options import Alphas, alphas_of, tables
+from .options import Alphas, measured_alphas_of, tables
 from .settings import FIT, Settings, chosen
 
 SEED = 7
@@ -84,8 +85,7 @@ def measured(settings: Settings) -> Measured:
 
         def one(name: str) -> tuple[Intensities, dict[str, Alphas], dict[tuple[str, float], Errors]]:
             m = load(f"{name}@{FIT}")
-            intensities = intensities_of(m)
-            alphas = alphas_of(m, intensities.best)
+            intensities, alphas = choices_of(f"{name}@{FIT}")
             errors = errors_of(m, settings.budgets, alphas, settings.pairs)
             bar.step()
             return intensities, alphas, errors
@@ -95,6 +95,14 @@ def measured(settings: Settings) -> Measured:
             for key, error in errors.items():
                 found.errors[key][name] = error
     return found
+
+
+@functools.cache
+def choices_of(text: str) -> tuple[Intensities, dict[str, Alphas]]:
+    """The total intensities of a material's tables, and its alphas by origin; `text` as for `load`."""
+    m = load(text)
+    intensities = intensities_of(m)
+    return intensities, {"intensity": intensities.best, "measured": measured_alphas_of(m)}
 
 
 def intensities_of(m: Reflectance) -> Intensities:

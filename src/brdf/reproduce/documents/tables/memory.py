@@ -14,8 +14,8 @@ from ....representations.table import Table
 from ....threads import map_threads
 from ...charts import curves
 from ...report import Cell, Column, Report
-from .measuring import SEED, Measured, errors_of, intensities_of
-from .options import BEZIER, HALF_LOG, IDENTITY, INTENSE, MEASURED, SEARCHED_AT, STACK, UNIFORM, alphas_of
+from .measuring import SEED, Measured, choices_of, errors_of
+from .options import BEZIER, HALF_LOG, IDENTITY, INTENSE, MEASURED, SEARCHED_AT, STACK, UNIFORM
 from .settings import FIT, Settings
 
 CHARTED = (IDENTITY, UNIFORM, BEZIER, INTENSE, HALF_LOG, STACK)
@@ -36,8 +36,8 @@ HOW = (
 )
 
 
-def present(report: Report, settings: Settings, found: Measured) -> dict[str, Errors]:
-    """The sections on memory; returns the errors of the tables searched for, by material."""
+def present(report: Report, settings: Settings, found: Measured) -> None:
+    """The sections on memory."""
     report.section(
         "Error against memory",
         f"At equal bytes, over the {len(found.names)} shipped materials (Bagher's fits). The paper's tables have 4 "
@@ -51,10 +51,9 @@ def present(report: Report, settings: Settings, found: Measured) -> dict[str, Er
             curves(series, "memory [KB]", name, {k: f"{k:g}" for k in found.budgets}, x_scale="log", y_scale="log"),
         )
     _statistics(report, "error-by-bytes", "Error against bytes: the shipped materials", found)
-    searched = _searched(report, settings, found)
+    _searched(report, settings, found)
     _measured_files(report, settings)
     _materials(report, found)
-    return searched
 
 
 def _statistics(report: Report, name: str, caption: str, found: Measured) -> None:
@@ -82,11 +81,12 @@ def _statistics(report: Report, name: str, caption: str, found: Measured) -> Non
     )  # fmt: skip
 
 
-def _searched(report: Report, settings: Settings, found: Measured) -> dict[str, Errors]:
+def _searched(report: Report, settings: Settings, found: Measured) -> None:
     """The search at one size, beside the paper's best for each material by the same error."""
+    if not settings.searched:
+        return
     names = found.names[:: max(1, len(found.names) // max(1, settings.searched))][: settings.searched]
     rows: list[list[Cell]] = []
-    errors: dict[str, Errors] = {}
     with Progress("tables searched for", len(names), None) as bar:
 
         def one(name: str) -> tuple[Table, Errors]:
@@ -96,7 +96,6 @@ def _searched(report: Report, settings: Settings, found: Measured) -> dict[str, 
             return table, ErrorsAgainst(m, importance_pairs(settings.pairs, SEED))(table)
 
         for name, (table, error) in zip(names, map_threads(one, names), strict=True):
-            errors[name] = error
             best = _papers_best(found, name)
             size = " × ".join(map(str, table.layout.shape))
             kind = f"{', '.join(table.layout.basis.axes)}: {size}, {table.layout.storage}, {table.layout.filter}"
@@ -117,7 +116,6 @@ def _searched(report: Report, settings: Settings, found: Measured) -> dict[str, 
         f"Over these {len(rows)} the median ratio is {gains[0]:.1f} in the relative error (least {least[0]:.1f}) and "
         f"{gains[1]:.1f} in the display's (least {least[1]:.1f}).",
     )  # fmt: skip
-    return errors
 
 
 def _papers_best(found: Measured, name: str) -> Errors:
@@ -145,9 +143,8 @@ def _measured_files(report: Report, settings: Settings) -> None:
     found = Measured()
     with Progress("errors of measured files", len(files), None) as bar:
         for file in files:
-            m = load(file)
-            found.intensities[file.stem] = intensities = intensities_of(m)
-            for key, error in errors_of(m, settings.budgets, alphas_of(m, intensities.best), settings.pairs).items():
+            found.intensities[file.stem], alphas = choices_of(str(file))
+            for key, error in errors_of(load(file), settings.budgets, alphas, settings.pairs).items():
                 found.errors[key][file.stem] = error
             bar.step()
     _statistics(report, "measured-files", "Error against bytes: measured files", found)

@@ -75,9 +75,9 @@ def sized(recipe: Recipe, kilobytes: float) -> Layout:
     return named_layout(recipe.basis, recipe.warp, shape, recipe.storage, recipe.filter, None, recipe.encoding)
 
 
-def alphas_of(m: Reflectance, intense: Alphas) -> dict[str, Alphas]:
-    """The alphas of a material by origin, those of the total intensity given."""
-    return {"intensity": intense, "measured": measured_alphas(m, sized(RECIPES[MEASURED], SEARCHED_AT))}
+def measured_alphas_of(m: Reflectance) -> Alphas:
+    """The alphas of the least measured error."""
+    return measured_alphas(m, sized(RECIPES[MEASURED], SEARCHED_AT))
 
 
 def tables(

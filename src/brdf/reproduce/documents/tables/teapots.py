@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from typing import Any
 
 from ....loading import load
-from ....reflectance import Reflectance
 from ....render import Directional, Point
 from ....render.progress import Progress
 from ....representations.alpha_search import with_alpha
@@ -14,8 +13,8 @@ from ....representations.bake import bake_points
 from ....representations.layouts import named_layout, shape_of
 from ....representations.table import Table
 from ...report import Column, Panel, Report
-from .measuring import intensities_of
-from .options import BEZIER, HALF_LOG, INTENSE, MEASURED, UNIFORM, alphas_of
+from .measuring import choices_of
+from .options import BEZIER, HALF_LOG, INTENSE, MEASURED, UNIFORM
 from .pictures import View, error_panel, panel
 from .settings import FIT, FIXED, Settings
 
@@ -59,7 +58,7 @@ def isotropic(report: Report, settings: Settings) -> Errors:
         for name, text in list(SHOWN.items())[: settings.shown]:
             m = load(text)
             true = view.image(m)
-            pictures = {way: view.of(table, m, true) for way, table in _tables(m, settings.resolution).items()}
+            pictures = {way: view.of(table, m, true) for way, table in _tables(text, settings.resolution).items()}
             rows[name] = [*(panel(p, way) for way, p in pictures.items()), Panel(true.developed("clip"), "the model")]
             highest = max(p.quantile(SCALE) for p in pictures.values())
             rows[f"{name}, errors"] = [error_panel(p, way, highest) for way, p in pictures.items()]
@@ -90,10 +89,11 @@ def isotropic(report: Report, settings: Settings) -> Errors:
     return found
 
 
-def _tables(m: Reflectance, n: int) -> dict[str, Table]:
+def _tables(text: str, n: int) -> dict[str, Table]:
     """The tables of figure 4 of one material."""
+    m = load(text)
     layout = named_layout("normal", "bezier", shape_of("normal", n), "float32")
-    alphas = alphas_of(m, intensities_of(m).best)
+    _, alphas = choices_of(text)
     return {
         UNIFORM: Table.bake(m, "normal", "uniform", n, "float32"),
         INTENSE: bake_points(m, with_alpha(m, layout, alphas["intensity"])),
