@@ -24,6 +24,7 @@ _NAMES = {
     "compare": "metrics",
     "convert": "conversion",
     "errors": "errors",
+    "export": "export",
     "io": "io",
     "load": "loading",
     "lobes": "combinators",

@@ -147,18 +147,18 @@ def with_values(m: Reflectance, values: Mapping[str, Any]) -> Reflectance:
     return changed
 
 
-def _declaration(m: Any, name: str) -> Parameter | None:
-    """How the parameter of that full name is declared."""
+def declaration(m: Any, name: str) -> Parameter | None:
+    """How the parameter of that full name is declared; None for numbers that are not declared, such as a table's."""
     if isinstance(m, Parameterised) and name in m.declarations():
         return m.declarations()[name]
-    inner = (_declaration(child, name.removeprefix(f"{key}_")) for key, child in m.children.items()
+    inner = (declaration(child, name.removeprefix(f"{key}_")) for key, child in m.children.items()
              if name.startswith(f"{key}_"))  # fmt: skip
     return next((found for found in inner if found), None)
 
 
 def _validated(base: Reflectance, name: str, image: ArrayLike) -> NDArray[np.float32]:
     """The map as read-only (rows, columns, 1 or 3) in float32."""
-    declared = _declaration(base, name) if name in base.values else None
+    declared = declaration(base, name) if name in base.values else None
     if declared is None:
         raise UnknownNameError("parameter to vary", name, base.values)
     try:

@@ -160,7 +160,8 @@ class Graph:
     on_make: Callable[[Expr], None] | None = None
     _known: dict[tuple[Any, ...], Expr] = field(default_factory=dict)
 
-    def _make(self, op: str, args: tuple[Expr, ...] = (), value: Any = None) -> Expr:
+    def make(self, op: str, args: tuple[Expr, ...] = (), value: Any = None) -> Expr:
+        """The node as it stands, not simplified; the one that exists if there is one."""
         key = (op, *(a.index for a in args), value, type(value))
         node = self._known.get(key)
         if node is None:
@@ -174,19 +175,19 @@ class Graph:
         try:
             if isinstance(value, str):  # float() would read "1" as a number
                 raise TypeError
-            return self._make("constant", value=bool(value) if isinstance(value, bool) else float(value))
+            return self.make("constant", value=bool(value) if isinstance(value, bool) else float(value))
         except (TypeError, ValueError) as error:
             raise FormulaError(f"a formula mixes traced values with {type(value).__name__}") from error
 
     def symbol(self, name: str) -> Expr:
         """An input: a component of a direction or of a parameter."""
-        return self._make("symbol", value=name)
+        return self.make("symbol", value=name)
 
     def texture(self, texture: TextureRef, *coordinates: Any, filter: str = "linear") -> Vec:
         if not isinstance(texture, TextureRef) or texture.dimensions != len(coordinates):
             raise FormulaError(f"a texture lookup wants a declared texture and one coordinate an axis, got {texture!r}")
-        fetch = self._make("texture", tuple(map(self.constant, coordinates)), replace(texture, filter=filter))
-        return Vec(*(self._make("channel", (fetch,), channel) for channel in range(texture.channels)))
+        fetch = self.make("texture", tuple(map(self.constant, coordinates)), replace(texture, filter=filter))
+        return Vec(*(self.make("channel", (fetch,), channel) for channel in range(texture.channels)))
 
     def call(self, op: str, *arguments: Any) -> Expr:
         """The node of `op` on the arguments, simplified."""
@@ -207,7 +208,7 @@ class Graph:
             return same
         if op in ("add", "mul") and args[0].index > args[1].index:
             args = (args[1], args[0])  # one node for a + b and b + a
-        return self._make(op, args)
+        return self.make(op, args)
 
     def _identity(self, op: str, args: tuple[Expr, ...]) -> Expr | None:
         """The operand that the operation leaves as it is, if it does."""

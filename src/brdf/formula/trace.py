@@ -89,7 +89,7 @@ class _Namer:
                 line, _, column, _ = next(itertools.islice(frame.f_code.co_positions(), frame.f_lasti // 2, None))
                 for start, end, target in _assignments(frame.f_code):
                     if line is not None and column is not None and start <= (line, column) < end:
-                        self._made.setdefault((target, id(frame), start), []).append(node)
+                        self._made.setdefault((target, frame, start), []).append(node)
                         return
             frame = frame.f_back
 

@@ -17,6 +17,8 @@ _LONGEST_INLINE = 100
 
 _OPERATORS = {"or": ("|", 1), "and": ("&", 2), "lt": ("<", 3), "le": ("<=", 3), "add": ("+", 4), "sub": ("-", 4),
               "mul": ("*", 5), "div": ("/", 5)}  # fmt: skip
+"""Sign and binding strength."""
+
 _ATOM = 9
 
 
@@ -29,6 +31,12 @@ class Dialect:
     """Name of the operation, printed arguments -> text."""
     negation: Callable[[str], str]
     reserved: frozenset[str] = frozenset()
+    declared: Callable[[Expr, str], str] = lambda node, name: name
+    """A node and the name of its variable -> what stands to the left of the equals sign."""
+    in_place: Callable[[Expr], bool] = lambda node: node.op == "constant"
+    """Whether a node never gets a variable: it costs nothing."""
+    doubled: bool = False
+    """Whether `and` and `or` are spelt && and ||."""
 
 
 class Statements:
@@ -52,9 +60,9 @@ class Statements:
         for node in needed:
             text, level = self._expression(node)
             wants_name = node in self._preferred or uses[node] > 1 or len(text) > _LONGEST_INLINE
-            if wants_name and node.op != "constant":
+            if wants_name and not self._dialect.in_place(node):
                 name = self._fresh(self._preferred.get(node, "t"))
-                self.lines.append((name, text))
+                self.lines.append((self._dialect.declared(node, name), text))
                 text, level = name, _ATOM
             self._text[node] = (text, level)
 
@@ -82,6 +90,7 @@ class Statements:
             sign, level = _OPERATORS[node.op]
             left, right = node.args
             if node.op in ("and", "or"):  # languages differ in whether these bind more tightly than comparisons
+                sign *= 1 + self._dialect.doubled
                 return f"{self._argument(left, _ATOM)} {sign} {self._argument(right, _ATOM)}", level
             comparison = level == 3
             return (
