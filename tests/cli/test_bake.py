@@ -93,7 +93,7 @@ def test_what_was_baked_can_be_shown_and_described(brdf: Command) -> None:
     assert brdf("bake", "GGX:alpha=.3", "--as", "sphere-images", "--size", "32", "-o", "s.safetensors").code == 0
     described = json.loads(brdf("info", "s.safetensors", "--json").out)
     assert described["kind"] == "SphereImages"
-    assert described["pictures"] == {"angles": [0, 45, 90, 135], "size": 32, "storage": "half", "blend": "monotone"}
+    assert described["pictures"] == {"angles": [0, 45, 90, 135], "size": 32, "storage": "half", "blend": "separated"}
     assert "32 x 32 for lights at 0°, 45°, 90°, 135° from the viewer" in brdf("info", "s.safetensors").out
     assert brdf("convert", "s.safetensors", "folder/").code == 0
     described = json.loads(brdf("info", "folder", "--json").out)["file"]

@@ -16,9 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..reflectance import Reflectance
-from ..representations.sphere_images import SphereImages, checked_angles
+from ..representations.sphere_images import SphereImages
 from ..representations.sphere_images_bake import disc, sphere_pictures, sphere_radiance
 from ..representations.sphere_images_blends import monotone
+from ..representations.sphere_images_pictures import checked_angles
 from .ball_photographs import SEEN_RADIUS, BallPhotographs
 
 Array = NDArray[np.floating[Any]]

@@ -14,8 +14,9 @@ from ..errors import ParameterError
 from ..metrics import psnr_of
 from ..reflectance import Reflectance
 from ..representations.slice_stack import SliceStack
-from ..representations.sphere_images import SphereImages, checked_angles
+from ..representations.sphere_images import SphereImages
 from ..representations.sphere_images_bake import disc
+from ..representations.sphere_images_pictures import checked_angles
 from ..representations.table import Table
 from .analytic_fit import fit_ggx_lambert
 from .assembly import as_published, assemble

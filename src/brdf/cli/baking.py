@@ -36,7 +36,8 @@ Angles = Annotated[
 ]
 Size = Annotated[int | None, typer.Option(metavar="PIXELS", help="Of sphere images. [512]")]
 Blend = Annotated[
-    str | None, typer.Option(metavar="RULE", help="Of sphere images: monotone, paper, half or full. [monotone]")
+    str | None,
+    typer.Option(metavar="RULE", help="Of sphere images: separated, monotone, paper, half or full. [separated]"),
 ]
 Storage = Annotated[str | None, typer.Option(metavar="KIND", help="Numbers of sphere images or a table. [half]")]
 

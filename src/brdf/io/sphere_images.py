@@ -94,15 +94,9 @@ def _parsed(path: Path, text: str) -> dict[str, Any]:
 
 def _made(path: Path, description: Mapping[str, Any], pictures: NDArray[np.float32]) -> SphereImages:
     try:
-        options = {key: description["options"][key] for key in ("shorten", "mask", "guard")}
         made = SphereImages(
-            pictures,
-            description["angles"],
-            storage=description["storage"],
-            blend=description["blend"],
-            dilated=description["dilated"],
-            **options,
-        )
+            pictures, description["angles"], storage=description["storage"], dilated=description["dilated"]
+        ).with_blend(description["blend"], **description["options"])
     except BrdfError as error:
         raise CorruptFileError(path, f"{error}.") from None
     except (KeyError, TypeError, ValueError) as error:

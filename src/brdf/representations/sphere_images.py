@@ -9,31 +9,24 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..errors import BrdfError, ParameterError
-from ..formula import Scalar, Vec, atan2, cos, cross, dot, length, maximum, pi, sin, sqrt, texture3d, where
+from ..errors import BrdfError
+from ..formula import Scalar, Vec, clip, maximum, pi, texture2d
 from ..reflectance import Reflectance
-from .sphere_images_blends import blend_rule, neighbours
-from .sphere_images_separated import View, combined, measured_constants
+from .sphere_images_blends import blend_options, blend_rule
+from .sphere_images_formula import Fetch, blended, seen_from_viewer
+from .sphere_images_pictures import checked_angles, decoded, packed
+from .sphere_images_separated import measured_constants
 from .storage import storage
 
 Array = NDArray[np.floating[Any]]
-Fetch = Callable[[Scalar, Scalar, Scalar], Vec]
-"""(number of the picture, u, v) -> texel."""
-
-SHORTENING = 0.995
-"""The paper's remedy for pictures on a black ground: normals are shortened, so that no lookup touches the ground."""
-
 LEAST_COSINE = 1e-6
 """The light's cosine that radiance is divided by is at least this: f cos(theta_i) stays finite at the shadow's edge."""
-
-SAME_DIRECTION = 1e-6
-"""Sine of the angle between light and viewer below which they count as one direction."""
 
 
 class SphereImages(Reflectance):
@@ -44,7 +37,8 @@ class SphereImages(Reflectance):
 
     n: the normal in the frame with the viewer at +z and the light in the plane y = 0, which is known at every pixel,
     so that perspective and point lights are exact; P drops z; k: see `sphere_images_blends`. Beyond the last picture it
-    alone counts, turned by the same rule (the paper's: k = 3/4); before the first, the first.
+    alone counts, turned by the same rule (the paper's: k = 3/4; "monotone" lets the trend of the last two go on);
+    before the first, the first.
 
     Reciprocal only as far as the blend is exact: pictures are turned as the viewer sees them.
     Reference: Mihalik2015, equations 1 to 4.
@@ -66,6 +60,7 @@ class SphereImages(Reflectance):
         shorten: float | None = None,
         mask: bool = True,
         guard: bool = True,
+        trend: bool = True,
     ) -> None:
         """`images` (N, size, size, 3): linear radiance pi f cos(theta_i), top row (y near +1) first, x near -1 in the
         first column; `angles` (N,) [degrees] between light and viewer, increasing, in [0, 180).
@@ -74,8 +69,8 @@ class SphereImages(Reflectance):
         `dilated`: whether the texels around the disc repeat its limb instead of being black; for the other options
         see `with_blend`. Raises ParameterError, UnknownNameError.
         """
-        self._hold(*_packed(_checked_images(images), storage), storage, angles, dilated)
-        self._choose(blend, {"shorten": shorten, "mask": mask, "guard": guard})
+        self._hold(*packed(images, storage), storage, angles, dilated)
+        self._choose(blend, {"shorten": shorten, "mask": mask, "guard": guard, "trend": trend})
 
     def _hold(
         self, codes: NDArray[Any], constants: Mapping[str, ArrayLike], store: str, angles: ArrayLike, dilated: bool
@@ -85,20 +80,15 @@ class SphereImages(Reflectance):
         if set(self._constants) != set(storage(store).constants):
             raise ValueError(f"storage {store!r} has the constants {storage(store).constants}")
         texels = storage(store).texels(codes)
-        self._textures = {"spheres": texels}
+        # the pictures below each other: a lookup reads four texels, which eight are for a texture of three axes
+        self._textures = {"spheres": texels.reshape(-1, *texels.shape[2:])}
         self._angles = checked_angles(angles, len(texels))
 
     def _choose(self, blend: str, options: Mapping[str, Any]) -> None:
         blend_rule(blend)
-        shorten = options["shorten"]
-        if shorten is None:
-            shorten = 1.0 if self._dilated else SHORTENING
-        if not 0 < shorten <= 1:
-            raise ParameterError(f"shorten must lie in (0, 1], got {shorten!r}")
-        self._blend = blend
-        measured = measured_constants(self.images, self._nodes) if blend == "separated" else {}
+        self._blend, self._options = blend, blend_options(options, self._dilated)
+        measured = measured_constants(self.images, self.nodes) if blend == "separated" else {}
         self._values = self._constants | measured
-        self._options = {"shorten": float(shorten), "mask": bool(options["mask"]), "guard": bool(options["guard"])}
 
     @classmethod
     def bake(
@@ -107,14 +97,15 @@ class SphereImages(Reflectance):
         angles: str | Sequence[float] = (0, 45, 90, 135),
         size: int = 512,
         storage: str = "half",
-        blend: str = "monotone",
+        blend: str = "separated",
         dilate: bool = True,
     ) -> SphereImages:
         """Pictures of `m` under lights at `angles` [degrees] from the viewer, `size` texels across.
 
         `angles` may be "plastic" (0, 45, 90, 135) or "metal" (0, 30, … 150), the paper's choices. With `dilate`, texels
-        around the disc repeat its limb. Raises ReflectanceError for an `m` that is anisotropic, transmits or mirrors,
-        ParameterError, UnknownNameError.
+        around the disc repeat its limb. The default blend is the nearest to what is baked (docs/sphere-images.md);
+        that of the class itself, "monotone", takes nothing from the pictures but their texels. Raises ReflectanceError
+        for an `m` that is anisotropic, transmits or mirrors, ParameterError, UnknownNameError.
         """
         from .sphere_images_bake import named_angles, sphere_pictures
 
@@ -131,16 +122,14 @@ class SphereImages(Reflectance):
         - `mask`: in the fixed view (`fixed_view`), whether normals turned away from the light are black, default True;
           as a reflectance it always is;
         - `guard`: whether a picture in which the turned normal is out of sight leaves the pixel to the other one,
-          default True ("separated" fades such pictures out in any case).
+          default True ("separated" fades such pictures out in any case);
+        - `trend`: whether "monotone" lets the trend of the last two pictures go on beyond the last, default True.
 
         Raises UnknownNameError, ParameterError.
         """
-        unknown = set(options) - {"shorten", "mask", "guard"}
-        if unknown:
-            raise ParameterError(f"unknown option {sorted(unknown)[0]!r}; a blend takes shorten, mask and guard")
         made = copy.copy(self)
         made.__dict__.pop("_sampler", None)
-        made._choose(blend, {"shorten": None, "mask": True, "guard": True} | options)
+        made._choose(blend, options)
         return made
 
     # ---- what it holds -------------------------------------------------------------------------------------------
@@ -148,9 +137,12 @@ class SphereImages(Reflectance):
     @property
     def images(self) -> NDArray[np.float32]:
         """(N, size, size, 3) radiance as stored, decoded."""
-        texels = self._textures["spheres"]
-        channels = storage(self._storage).value(Vec(*np.moveaxis(texels, -1, 0)), _Channels(self._constants))
-        return np.stack(channels.components, -1).astype(np.float32)
+        return decoded(self.texels, self._storage, self._constants)
+
+    @property
+    def texels(self) -> NDArray[np.float32]:
+        """(N, size, size, 3) what a lookup reads and `storage` decodes."""
+        return self._textures["spheres"].reshape(len(self._angles), self.size, self.size, 3)
 
     @property
     def angles(self) -> Array:
@@ -158,7 +150,8 @@ class SphereImages(Reflectance):
         return np.array(self._angles)
 
     @property
-    def _nodes(self) -> tuple[float, ...]:
+    def nodes(self) -> tuple[float, ...]:
+        """The same in radians."""
         return tuple(map(math.radians, self._angles))
 
     @property
@@ -172,7 +165,7 @@ class SphereImages(Reflectance):
 
     @property
     def options(self) -> dict[str, Any]:
-        """Shortening factor, mask and guard, see `with_blend`."""
+        """Shortening factor, mask, guard and trend, see `with_blend`."""
         return dict(self._options)
 
     @property
@@ -209,14 +202,7 @@ class SphereImages(Reflectance):
         return self._textures
 
     def f(self, wi: Vec, wo: Vec) -> Vec:
-        across = cross(wi - wo, wo)  # wi x wo; the difference keeps its digits when the two are close
-        sine = length(across)
-        apart = sine > SAME_DIRECTION
-        scale = 1.0 / maximum(sine, SAME_DIRECTION)
-        n_x = where(apart, (wo.x * across.y - wo.y * across.x) * scale, sqrt(maximum(1.0 - wo.z * wo.z, 0.0)))
-        n_y = where(apart, -across.z * scale, 0.0)
-        radiance = self.radiance(n_x, n_y, wo.z, atan2(sine, dot(wi, wo)))
-        f: Vec = radiance * (1.0 / (pi * maximum(wi.z, LEAST_COSINE)))
+        f: Vec = self.radiance(*seen_from_viewer(wi, wo)) * (1.0 / (pi * maximum(wi.z, LEAST_COSINE)))
         return f
 
     def radiance(self, n_x: Scalar, n_y: Scalar, n_z: Scalar, phi: Scalar, fetch: Fetch | None = None) -> Vec:
@@ -224,28 +210,12 @@ class SphereImages(Reflectance):
 
         `fetch` may stand in for `self.fetch`.
         """
-        fetch, shorten = fetch or self.fetch, self._options["shorten"]
-        a = atan2(n_x, n_z)
-        rho = sqrt(n_x * n_x + n_z * n_z)
-        first, second, number, t = neighbours(phi, self._nodes)
-        k = blend_rule(self._blend)(a, phi, self._nodes[-1])
-        a_1 = a + k * (first - phi)
-        a_2 = a + k * (second - phi)
-        v = 0.5 - 0.5 * shorten * n_y
-        store = storage(self._storage)
-        value_1 = store.value(fetch(number, 0.5 + 0.5 * shorten * rho * sin(a_1), v), self)
-        value_2 = store.value(fetch(number + 1.0, 0.5 + 0.5 * shorten * rho * sin(a_2), v), self)
-        if self._blend == "separated":
-            view = View(a, rho, phi)
-            return combined((value_1, value_2), (a_1, a_2), (first, second), t, view, self.floor, self.F0)
-        if self._options["guard"]:
-            t = where(cos(a_1) < 0.0, 1.0, where(cos(a_2) < 0.0, 0.0, t))
-        radiance: Vec = value_1 * (1.0 - t) + value_2 * t
-        return radiance
+        return blended(self, n_x, n_y, n_z, phi, fetch or self.fetch)
 
     def fetch(self, number: Scalar, u: Scalar, v: Scalar) -> Vec:
         """The formula: picture `number` at u (left to right) and v (top to bottom) in [0, 1], filtered linearly."""
-        return texture3d(self.spheres, (number + 0.5) * (1 / len(self._angles)), v, u)
+        edge = 0.5 / self.size  # the centre of the outermost texels: beyond lies the next picture
+        return texture2d(self.spheres, (number + clip(v, edge, 1.0 - edge)) * (1 / len(self._angles)), u)
 
     # ---- storage -------------------------------------------------------------------------------------------------
 
@@ -269,36 +239,3 @@ class SphereImages(Reflectance):
         except BrdfError as error:
             raise ValueError(error) from None
         return made
-
-
-class _Channels:
-    """(3,) constants of a storage as the formula has them."""
-
-    def __init__(self, values: Mapping[str, Array]) -> None:
-        self.__dict__.update({name: Vec(*value) for name, value in values.items()})
-
-
-def _packed(images: Array, store: str) -> tuple[NDArray[Any], Mapping[str, ArrayLike]]:
-    return storage(store).pack(images)
-
-
-def _checked_images(images: ArrayLike) -> Array:
-    """(N, size, size, 3) float32. Raises ParameterError."""
-    array = np.asarray(images, np.float32)
-    if array.ndim != 4 or array.shape[1] != array.shape[2] or array.shape[3] != 3 or array.shape[1] < 2:
-        raise ParameterError(f"images must have shape (N, size, size, 3), got {array.shape}")
-    if not np.isfinite(array).all():
-        raise ParameterError("the images hold NaN or infinity; replace those pixels first")
-    return array
-
-
-def checked_angles(angles: ArrayLike, count: int | None = None) -> tuple[float, ...]:
-    """The angles [degrees]: at least 2 (and `count`), increasing, in [0, 180). Raises ParameterError."""
-    array = np.asarray(angles, np.float64)
-    if array.ndim != 1 or len(array) < 2:
-        raise ParameterError(f"at least 2 pictures at increasing angles are needed, got angles {angles!r}")
-    if count is not None and len(array) != count:
-        raise ParameterError(f"{count} pictures have {len(array)} angles; give one angle a picture")
-    if not (np.all(np.diff(array) > 0) and array[0] >= 0 and array[-1] < 180):
-        raise ParameterError(f"angles must increase within [0, 180) degrees, got {[float(a) for a in array]}")
-    return tuple(float(a) for a in array)

@@ -7,13 +7,25 @@ at phi, the viewer at 0 and the half vector at phi / 2 [rad].
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+from collections.abc import Callable, Mapping
+from typing import Any
 
-from ..errors import UnknownNameError
-from ..formula import Scalar, abs, clip, maximum, pi, sin, where
+from ..errors import ParameterError, UnknownNameError
+from ..formula import Scalar, Vec, abs, clip, maximum, minimum, pi, sin, where
 
 Rule = Callable[[Scalar, Scalar, Scalar], Scalar]
 """(a, phi, phi of the last picture) -> k."""
+
+SHORTENING = 0.995
+"""The paper's remedy for pictures on a black ground: normals are shortened, so that no lookup touches the ground."""
+
+STEEPEST = 1.5
+"""Largest factor between the last two pictures that is taken for a trend: more suits dark plastics, but makes light of
+bright metals."""
+
+FAINT = 1e-3
+"""Radiance added to both when they are compared: shadows say nothing."""
 
 NARROWEST = 1e-4
 """Least half width [rad] of the lit and visible range of azimuths: it closes when the light stands behind."""
@@ -64,3 +76,30 @@ def neighbours(phi: Scalar, nodes: tuple[float, ...]) -> tuple[Scalar, Scalar, S
         second = where(reached, nodes[i + 1], second)
         number = where(reached, float(i), number)
     return first, second, number, clip((phi - first) / (second - first), 0.0, 1.0)
+
+
+def trend(before: Vec, last: Vec, phi: Scalar, nodes: tuple[float, ...]) -> Vec:
+    """The formula: the factor (1 + x (r - 1))^2 by which the last picture goes on to change, r the factor from the last
+    but one to it, x from 0 at its angle up to at most 1 at 180 degrees. 1 up to the last picture.
+
+    Towards grazing light radiance changes ever faster, so that it is squared; see docs/sphere-images.md.
+    """
+    x = maximum(phi - nodes[-1], 0.0) * (1 / max(nodes[-1] - nodes[-2], math.pi - nodes[-1]))
+    r = minimum(maximum((last + FAINT) / (before + FAINT), 1 / STEEPEST), STEEPEST)
+    factor: Vec = 1.0 + x * (r - 1.0)
+    return factor * factor
+
+
+def blend_options(given: Mapping[str, Any], dilated: bool) -> dict[str, Any]:
+    """All options of a blend: those given, and what the others are by default. Raises ParameterError."""
+    defaults = {"shorten": None, "mask": True, "guard": True, "trend": True}
+    unknown = set(given) - set(defaults)
+    if unknown:
+        raise ParameterError(f"unknown option {sorted(unknown)[0]!r}; a blend takes {', '.join(defaults)}")
+    options = defaults | dict(given)
+    shorten = options.pop("shorten")
+    if shorten is None:
+        shorten = 1.0 if dilated else SHORTENING
+    if not 0 < shorten <= 1:
+        raise ParameterError(f"shorten must lie in (0, 1], got {shorten!r}")
+    return {"shorten": float(shorten)} | {name: bool(value) for name, value in options.items()}

@@ -27,6 +27,9 @@ Array = NDArray[np.floating[Any]]
 SHADOWING = 0.1
 """c: the cosine at which half the light is lost to shadowing; found by trial, see docs/sphere-images.md."""
 
+STEEPEST = 0.06
+"""Least cosine that shadowing is formed with: below, it would extrapolate to more light than there is."""
+
 FADE = 0.1
 """Cosine below which a picture counts less: in it the turned normal nears the limb or the shadow's edge."""
 
@@ -37,7 +40,10 @@ FLOOR_QUANTILE = 0.02
 """The quantile of pi f in the pictures that counts as diffuse: the least value of a photograph is noise."""
 
 HIGHLIGHT = np.radians(np.linspace(-15, 15, 31))
-"""Angles from the half vector over which the growth of highlights is measured."""
+"""Angles from the half vector over which the growth of highlights is measured; less where the lit part is narrow."""
+
+LAST_HIGHLIGHT = np.radians(150.5)
+"""Angle up to which a highlight is measured: later it fills the crescent that is lit, and is shadowing more than F."""
 
 LEAST_GROWTH = 0.01
 """Difference of Schlick's curve between the last two pictures below which they say nothing of F0."""
@@ -75,7 +81,7 @@ def combined(
 
 
 def shadowing(cos_i: Any, cos_o: Any) -> Any:
-    return cos_i / ((cos_i + SHADOWING) * (cos_o + SHADOWING))
+    return cos_i / ((maximum(cos_i, STEEPEST) + SHADOWING) * (maximum(cos_o, STEEPEST) + SHADOWING))
 
 
 def grazing(phi: Any) -> Any:
@@ -90,7 +96,7 @@ def schlick(F0: Any, phi: Any) -> Any:
 def measured_constants(images: Array, nodes: tuple[float, ...]) -> dict[str, Array]:
     """`floor` and `F0`, (3,) each, of pictures (N, size, size, 3) at angles `nodes` [rad].
 
-    F0 is what makes Schlick's curve grow as the highlight does from the last picture but one to the last.
+    F0 is what makes Schlick's curve grow as the highlight does between the last two pictures that show it well.
     """
     x, y = disc(images.shape[1])
     radius = np.hypot(x, y)
@@ -101,9 +107,11 @@ def measured_constants(images: Array, nodes: tuple[float, ...]) -> dict[str, Arr
         clear = (radius < 0.99) & (cos_i > 0.1)
         reflectances.append(image[clear] / cos_i[clear][:, None])
     floor = np.maximum(np.quantile(np.concatenate(reflectances), FLOOR_QUANTILE, axis=0), 0)
-    before, last = (_highlight(images[i], nodes[i], floor) for i in (-2, -1))
+    clear_ones = [i for i, phi in enumerate(nodes) if phi <= LAST_HIGHLIGHT]
+    pair = clear_ones[-2:] if len(clear_ones) > 1 else (0, 1)
+    before, last = (_highlight(images[i], nodes[i], floor) for i in pair)
     growth = np.maximum((last + 1e-6) / (before + 1e-6), 1)
-    s_before, s_last = (float(grazing(np.float64(nodes[i]))) for i in (-2, -1))
+    s_before, s_last = (float(grazing(np.float64(nodes[i]))) for i in pair)
     F0 = (s_last - growth * s_before) / np.maximum(growth * (1 - s_before) - (1 - s_last), 1e-6)
     is_known = s_last - s_before > LEAST_GROWTH
     return {"floor": floor, "F0": np.clip(F0, 1e-3, 1) if is_known else np.ones(3)}
@@ -111,8 +119,7 @@ def measured_constants(images: Array, nodes: tuple[float, ...]) -> dict[str, Arr
 
 def _highlight(image: Array, phi: float, floor: Array) -> Array:
     """(3,) the mean of what is not diffuse over a few degrees about the half vector, without its shadowing."""
-    azimuth = HIGHLIGHT + phi / 2
-    azimuth = azimuth[(np.abs(azimuth) < 1.5) & (np.abs(azimuth - phi) < 1.5)]
+    azimuth = phi / 2 + HIGHLIGHT * min(1.0, 0.375 * (np.pi - phi) / HIGHLIGHT[-1])
     cos_i, cos_o = np.cos(azimuth - phi)[:, None], np.cos(azimuth)[:, None]
     place = (np.full_like(azimuth, 0.5), 0.5 + 0.5 * np.sin(azimuth))
     radiance = np.stack(lookup(image, place, backend_of(azimuth)).components, -1)

@@ -16,8 +16,9 @@ from ..errors import ParameterError, UnknownNameError
 from ..formula import Vec, texture3d
 from ..formula.bound import Bound, bound_value
 from ..geometry.directions import normalized
-from .sphere_images import Fetch, SphereImages
+from .sphere_images import SphereImages
 from .sphere_images_bake import disc
+from .sphere_images_formula import Fetch
 
 Array = NDArray[np.floating[Any]]
 Pyramid = list[NDArray[np.float32]]
@@ -76,7 +77,7 @@ def _bilinear(images: SphereImages, surface: NDArray[np.bool_]) -> Fetch:
 
 def _trilinear(images: SphereImages, surface: NDArray[np.bool_]) -> Fetch:
     """Level of detail log2 of the pixel's longer side in texels, from 2 x 2 quads of pixels on the surface."""
-    pyramid = mip_pyramid(images.textures["spheres"])
+    pyramid = mip_pyramid(images.texels)
 
     def fetch(number: Any, u: Any, v: Any) -> Vec:
         level = np.clip(_level_of_detail(u, v, surface, images.size), 0, len(pyramid) - 1)

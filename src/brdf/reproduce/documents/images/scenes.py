@@ -83,8 +83,8 @@ def _three(
 def _blends(m: Reflectance, angles: Sequence[float], settings: Settings) -> list[SphereImages]:
     """The paper's and ours."""
     paper = SphereImages.bake(m, angles, settings.largest, dilate=False).with_blend("paper", guard=False, mask=False)
-    ours = SphereImages.bake(m, angles, settings.largest)
-    return [paper, ours, ours.with_blend("separated")]
+    separated = SphereImages.bake(m, angles, settings.largest)
+    return [paper, separated.with_blend("monotone"), separated]
 
 
 def _said(light: Directional) -> str:
