@@ -62,9 +62,9 @@ def present(report: Report) -> dict[str, float]:
         "nodes",
         "Nodes of a polar axis",
         ["warp", *(Column(title, "degrees", ".2f", "ours") for title in ("first gap", "middle node", "last gap")),
-         Column("density at the normal", "1", ".2f", "ours"), Column("density at the horizon", "1", ".2f", "ours")],
+         Column("density at 1°", "1", ".2f", "ours"), Column("density at 89°", "1", ".2f", "ours")],
         [
-            [name, *_gaps(w), float(w.density(0.0) * w.extent), float(w.density(w.extent) * w.extent)]
+            [name, *_gaps(w), *(float(w.density(math.radians(angle)) * w.extent) for angle in (1, 89))]
             for name, w in warps.items()
         ],
         "64 nodes over 0 to 90°. Densities in parts of the even spacing's.",
