@@ -92,7 +92,8 @@ class HalfBasis(Basis):
     """(theta_h, theta_d, phi_d): half vector against normal, light against half vector, azimuth of that difference.
 
     phi_d is folded: to half a turn, which assumes reciprocity alone (f at phi_d + pi is f with the directions
-    exchanged), or to a quarter turn, which assumes mirror symmetry, too. With h = wi + wo,
+    exchanged); by "mirror", to half a turn, which assumes mirror symmetry alone (f at -phi_d), for measurements that
+    are not reciprocal; or to a quarter turn, which assumes both. With h = wi + wo,
 
         cos phi_d = (wo.z - wi.z) / (2 sin theta_h sin theta_d),   sin phi_d ~ (h x wi).z / cos theta_d.
 
@@ -104,12 +105,12 @@ class HalfBasis(Basis):
     fold: str = "half-turn"
 
     def __post_init__(self) -> None:
-        if self.fold not in ("half-turn", "quarter-turn"):
-            raise ParameterError(f"fold must be 'half-turn' or 'quarter-turn', got {self.fold!r}")
+        if self.fold not in ("half-turn", "mirror", "quarter-turn"):
+            raise ParameterError(f"fold must be 'half-turn', 'mirror' or 'quarter-turn', got {self.fold!r}")
 
     @property
     def extents(self) -> tuple[float, ...]:
-        return HALF_PI, HALF_PI, math.pi if self.fold == "half-turn" else HALF_PI
+        return HALF_PI, HALF_PI, HALF_PI if self.fold == "quarter-turn" else math.pi
 
     def angles(self, wi: Vec, wo: Vec) -> tuple[Angle, ...]:
         h, d = wi + wo, wi - wo
@@ -118,7 +119,10 @@ class HalfBasis(Basis):
         theta_d = Angle(0.5 * length(d), 0.5 * h_length)
         sine = (wi.y * wo.x - wi.x * wo.y) / theta_d.cosine
         cosine = wo.z - wi.z
-        cosine = where(sine < 0.0, -cosine, cosine) if self.fold == "half-turn" else abs(cosine)
+        if self.fold == "half-turn":
+            cosine = where(sine < 0.0, -cosine, cosine)
+        elif self.fold == "quarter-turn":
+            cosine = abs(cosine)
         return theta_h, theta_d, azimuth(abs(sine), cosine)
 
     def directions(self, *angles: Array) -> tuple[Array, Array]:
@@ -141,9 +145,9 @@ class HalfBasis(Basis):
         return 4 * np.cos(theta_d) * np.sin(theta_d) * np.sin(theta_h) + 0 * phi_d
 
     def images(self, wi: Array, wo: Array) -> list[tuple[Array, Array]]:
-        mirrored = [(wi * _MIRROR, wo * _MIRROR)] if self.fold == "quarter-turn" else []
+        mirrored = [(wi * _MIRROR, wo * _MIRROR)] if self.fold != "half-turn" else []
         unswapped = [(wi, wo), *mirrored]
-        return [*unswapped, *((b, a) for a, b in unswapped)]
+        return unswapped if self.fold == "mirror" else [*unswapped, *((b, a) for a, b in unswapped)]
 
 
 @dataclass(frozen=True)
