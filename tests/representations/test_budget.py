@@ -115,7 +115,7 @@ def test_the_best_round_is_kept():
 
     against = ErrorsAgainst(PLASTIC, importance_pairs(2048, 0))
     assert adapt(PLASTIC, against, 4000, "half", LOG, error_of).layout == seen[1]
-    assert set(STARTS) == {"half", "sheared", "normal"}
+    assert {"half", "sheared", "normal"} < set(STARTS)
 
 
 # ---- the search ------------------------------------------------------------------------------------------------------

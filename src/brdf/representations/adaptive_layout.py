@@ -45,8 +45,10 @@ STARTS: dict[str, tuple[Basis, tuple[Warp, ...], tuple[float, ...]]] = {
     "half": (HalfBasis("quarter-turn"), (square_root(), uniform(), uniform()), (2, 2, 0.5)),
     "sheared": (ShearedBasis(), (square_root(), uniform(), FarPower(math.pi, 2.0)), (1, 1, 2)),
     "normal": (NormalBasis(), (uniform(), uniform(), FarPower(math.pi, 2.0)), (1, 1, 2)),
+    "irreciprocal": (HalfBasis("mirror"), (square_root(), uniform(), uniform(math.pi)), (2, 2, 1)),
 }
-"""Basis, base warps and proportions of the nodes from which the rounds start."""
+"""Basis, base warps and proportions of the nodes from which the rounds start. The last is a half basis for
+measurements that change when the directions are exchanged."""
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import ParameterError, UnknownNameError
-from ..metrics.importance import Errors, ErrorsAgainst, importance_pairs
+from ..metrics.importance import Errors, ErrorsAgainst, importance_pairs, relative_rms
 from ..metrics.pairs import Pairs
 from ..reflectance import Reflectance
 from .adaptive_layout import KNOTS, STARTS, Adapted, adapt
@@ -44,6 +44,9 @@ ADAPTING_PAIRS, CHOOSING_PAIRS = 8192, 16384
 
 MARGIN = 0.9
 """What errors must be below, in parts of the best paper table's, to be sure to be below on other pairs, too."""
+
+ASYMMETRY = 1e-3
+"""Relative RMS of what exchanging the directions changes, from which a basis is tried that tells them apart."""
 
 PAPER_TABLES = ("identity", "uniform", "bezier")
 
@@ -199,6 +202,8 @@ class _Trial:
     def adaptive(self, filters: Sequence[str]) -> Iterator[Candidate]:
         """Tables whose warps and numbers of nodes are made for the reflectance."""
         for basis in STARTS:
+            if basis == "irreciprocal" and self._is_reciprocal():
+                continue
             fits: dict[Encoding, Adapted] = {}
             for name, encoding, texel in VARIANTS:
                 fitted = LOGARITHM if encoding.scale == 1.0 else FLOOR_LOGARITHM
@@ -207,6 +212,11 @@ class _Trial:
                 for how in filters:
                     layout = fits[fitted].sized(self._entries(texel), encoding=encoding, storage=texel, filter=how)
                     yield self._candidate(f"adaptive {basis} {name}, {texel}, {how}", layout)
+
+    def _is_reciprocal(self) -> bool:
+        wi, wo, weight = self._adapting.pairs
+        exchanged = self._m(wo, wi) * wi[:, 2:]
+        return relative_rms(self._adapting.f_cos, exchanged, weight) < ASYMMETRY
 
     def _candidate(self, name: str, layout: Layout) -> Candidate:
         return self._baked(name, partial(self._bake, layout))
