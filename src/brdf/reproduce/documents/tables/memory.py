@@ -15,15 +15,13 @@ from ....threads import map_threads
 from ...charts import curves
 from ...report import Cell, Column, Report
 from .measuring import SEED, Measured, choices_of, errors_of
-from .options import BEZIER, HALF_LOG, IDENTITY, INTENSE, MEASURED, SEARCHED_AT, STACK, UNIFORM
+from .options import BEZIER, HALF_LOG, IDENTITY, INTENSE, MEASURED, SEARCHED_AT, STACK, UNIFORM, Alphas
 from .settings import FIT, Settings
 
 CHARTED = (IDENTITY, UNIFORM, BEZIER, INTENSE, HALF_LOG, STACK)
 """As many as colours tell apart."""
 
 PAPER = (IDENTITY, UNIFORM, BEZIER, INTENSE, MEASURED)
-
-SEARCH = "the best table searched for (ours)"
 
 DATA, MEASURED_FILES = "BRDF_DATA", "rgl/*.bsdf"
 """The environment variable that names a folder of measured files, which are not shipped, and those in it."""
@@ -69,17 +67,25 @@ def _statistics(report: Report, name: str, caption: str, found: Measured) -> Non
         for statistic, of in (("median", found.median), ("worst", found.worst))
         for option in found.options
     ]
+    report.table(name, caption, columns, rows, HOW, " ".join(_best(found, error) for error in (0, 1)))
+
+
+def _best(found: Measured, error: int) -> str:
+    """Which option has the least median of an error at the largest size, the paper's best and ours beside it."""
     largest = found.budgets[-1]
-    best = min(found.options, key=lambda o: found.median(o, largest))
-    paper = min(PAPER, key=lambda o: found.median(o, largest))
-    ours = found.median(HALF_LOG, largest)
-    equal = next((k for k in found.budgets if found.median(HALF_LOG, k) <= found.median(paper, largest)), largest)
-    report.table(
-        name, caption, ["statistic", "table", *columns], rows, HOW,
-        f"At {largest:g} KB the least median relative error is that of {best}; the paper's best there is {paper} with "
-        f"{100 * found.median(paper, largest):.3g} %, {HALF_LOG} has {100 * ours:.3g} %, and no more than the "
-        f"former from {equal:g} KB on.",
-    )  # fmt: skip
+    best, paper = (min(options, key=lambda o: found.median(o, largest, error)) for options in (found.options, PAPER))
+    scale, unit = ((100, "%"), (1000, "‰"))[error]
+
+    def told(option: str) -> str:
+        return f"{option} {scale * found.median(option, largest, error):.3g} {unit}"
+
+    reached = (k for k in found.budgets if found.median(HALF_LOG, k, error) <= found.median(paper, largest, error))
+    smallest = next(reached, None)
+    enough = "reaches it at no size measured" if smallest is None else f"reaches it from {smallest:g} KB on"
+    return (
+        f"Median {ERRORS[error]} at {largest:g} KB: the least is {told(best)}, the paper's least {told(paper)}; "
+        f"{told(HALF_LOG)} {enough}."
+    )
 
 
 def _searched(report: Report, settings: Settings, found: Measured) -> None:
@@ -136,7 +142,7 @@ def _measured_files(report: Report, settings: Settings) -> None:
             "database). Their data is not shipped.",
         )
         return
-    files = files[: settings.materials]
+    files = files[: settings.files]
     report.section(
         "Measured files",
         f"The same options on {len(files)} files of Dupuy's and Jakob's database, which are not shipped.",
@@ -159,6 +165,13 @@ def _materials(report: Report, found: Measured) -> None:
     report.table(
         "materials",
         f"Relative error of the shipped materials, {SEARCHED_AT} KB",
-        ["material", *(Column(option, "%", ".3g", "ours") for option in shown)],
-        [[name, *(100 * errors[option][name][0] for option in shown)] for name in found.names],
+        ["material", *(Column(option, "%", ".3g", "ours") for option in shown), "α of θi, θo, φ by measured error"],
+        [
+            [name, *(100 * errors[option][name][0] for option in shown), _words(found.alphas[name]["measured"])]
+            for name in found.names
+        ],
     )
+
+
+def _words(alphas: Alphas) -> str:
+    return ", ".join(f"{alpha:.2f}" for alpha in alphas)

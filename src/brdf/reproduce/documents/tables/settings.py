@@ -25,6 +25,8 @@ class Settings:
     """Pairs of directions at which they are."""
     searched: int = 24
     """How many of the materials have the best table of 64 KB searched for."""
+    files: int | None = None
+    """How many of the measured files, where there are any; all of them."""
     converted: int = 16
     """N of the tables that are converted."""
     resolution: int = 64
@@ -48,8 +50,8 @@ class Settings:
 SETTINGS = {
     "full": Settings(),
     "quick": Settings(
-        materials=8, budgets=(16, 64), pairs=8192, searched=1, converted=8, resolution=32, resolutions=(8, 16, 32),
-        azimuths=12, shown=2, frame=(240, 180), samples=16, timed=(240, 180), repeats=3,
+        materials=8, budgets=(16, 64), pairs=8192, searched=1, files=1, converted=8, resolution=32,
+        resolutions=(8, 16, 32), azimuths=12, shown=2, frame=(240, 180), samples=16, timed=(240, 180), repeats=3,
     ),
 }  # fmt: skip
 
