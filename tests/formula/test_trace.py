@@ -21,6 +21,11 @@ def test_locals_keep_their_names():
     assert by_name["D"].op == "div"
 
 
+def test_a_method_called_twice_names_its_locals_twice():
+    names = [*trace(models.SGD()).graph.names.values()]
+    assert names.count("theta") == names.count("log_z_x") == 2
+
+
 def test_parameters_come_in_the_order_of_their_values():
     m = models.Microfacet(fresnel="conductor", alpha_x=0.1, alpha_y=0.3, k=(1, 2, 3)) + 0.5 * models.Lambertian()
     program = trace(m)
