@@ -57,7 +57,10 @@ def test_half_angles_of_a_worked_example():
     assert angles == pytest.approx([0.63191431, 0.56148196, 0.94973129], abs=1e-8)
 
 
-@pytest.mark.parametrize("basis", [HalfBasis("half-turn"), HalfBasis("quarter-turn"), NormalBasis()], ids=str)
+FOLDS = ("half-turn", "mirror", "quarter-turn")
+
+
+@pytest.mark.parametrize("basis", [*map(HalfBasis, FOLDS), NormalBasis()], ids=str)
 def test_directions_have_the_angles_they_were_made_from(basis):
     rng = np.random.default_rng(3)
     given = [rng.uniform(0.01, extent - 0.01, 400) for extent in basis.extents]
@@ -93,7 +96,7 @@ def test_moves_nodes_above_the_horizon(basis):
     np.testing.assert_allclose(wi[clear], kept_wi[clear], atol=1e-12)
 
 
-@pytest.mark.parametrize("basis", [HalfBasis("half-turn"), HalfBasis("quarter-turn"), NormalBasis()], ids=str)
+@pytest.mark.parametrize("basis", [*map(HalfBasis, FOLDS), NormalBasis()], ids=str)
 def test_images_have_the_same_angles(basis):
     expected = [np.arctan2(a.sine, a.cosine) for a in basis.angles(Vec(*WI.T), Vec(*WO.T))]
     images = basis.images(WI, WO)

@@ -43,7 +43,8 @@ class AnisotropicHalfBasis(Basis):
     turn: str = "full"
 
     def __post_init__(self) -> None:
-        HalfBasis(self.fold)
+        if self.fold not in ("half-turn", "quarter-turn"):
+            raise ParameterError(f"fold must be 'half-turn' or 'quarter-turn', got {self.fold!r}")
         _check_turn(self.turn)
 
     @property

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from ..errors import ReflectanceError
 from ..geometry.warps import Angle, Circle, FarPower, Power, Warp
 from ..reflectance import Reflectance
+from ..threads import map_threads
 from . import normal_equations as ne
 from .bake import Array, diffuse_floor, evaluate, require_isotropic, require_values
 from .bases import Basis
@@ -40,6 +41,14 @@ where there are no samples."""
 
 ITERATIONS = 80
 """Conjugate-gradient steps; the normal matrix is well conditioned but for nodes without samples."""
+
+ROBUST_STEPS = 3
+
+OUTLIER = 3.0
+"""Standard deviations, estimated by the median, at which a sample counts half in a robust fit."""
+
+LEAST_NOISE = 0.02
+"""The least standard deviation assumed of a robust fit's encoded values."""
 
 SAMPLES = {"phi_h": 2, "theta_h": 3, "theta_d": 5, "phi_d": 5}
 """Samples a node along each axis: with fewer, the nodes fit them better than what lies between."""
@@ -107,10 +116,11 @@ def _display_slope(radiance: Array) -> Array:
     return np.where(radiance > 1, WHITE_SLOPE / np.maximum(radiance, 1), slope)
 
 
-def fit(seen: Observations, layout: Layout, floor: Array, steps: int) -> tuple[Array, float]:
+def fit(seen: Observations, layout: Layout, floor: Array, steps: int, robust: bool = False) -> tuple[Array, float]:
     """The encoded values (3, *shape) of all nodes, and about the mean square error of the picture they make.
 
-    A fit of the encoded values themselves, then at most `steps` Gauss-Newton steps towards the values.
+    A fit of the encoded values themselves, then at most `steps` Gauss-Newton steps towards the values; a `robust` fit
+    adds ROBUST_STEPS that trust samples far from the last fit little.
     """
     encoding = layout.encoding
     factor = encoding.grazing_factor(seen.cos_d).astype(np.float32)
@@ -122,12 +132,15 @@ def fit(seen: Observations, layout: Layout, floor: Array, steps: int) -> tuple[A
     periodic = [warp.periodic for warp in layout.warps]
     smooth = ne.difference_penalty(layout.shape, periodic)
 
+    trust: Array = np.ones_like(seen.importance)
+
     def step(stored: Array, at: Array, slope: Array, missing: Array) -> Array:
         """Better nodes than `stored`, which interpolate to `at`, miss the values by `missing`, and change them at rate
         `slope`."""
-        pull = seen.weight * slope
-        weight = pull * slope + DARK_SHARE * seen.importance
-        pull = pull * missing + DARK_SHARE * seen.importance * (target - at)
+        pull = trust * seen.weight * slope
+        dark = DARK_SHARE * trust * seen.importance
+        weight = pull * slope + dark
+        pull = pull * missing + dark * (target - at)
         stiffness = STIFFNESS * weight.reshape(3, -1).sum(1, dtype=np.float64)
         matrix = ne.add(ne.normal_matrix(weight, axes, periodic), smooth, stiffness)
         right = ne.gather(pull, axes) - stiffness.reshape(low.shape) * ne.multiply(smooth, stored)
@@ -146,10 +159,21 @@ def fit(seen: Observations, layout: Layout, floor: Array, steps: int) -> tuple[A
     for _ in range(steps):
         candidate = step(best, at, encoding.transform.slope(at) / factor, missing)
         at, missing, reached = errors(candidate)
-        if reached >= error:
+        if reached >= error and not robust:
             break
         best, error = candidate, reached
+    for _ in range(ROBUST_STEPS if robust else 0):
+        trust = _trust(np.abs(target - at).max(0), seen.valid)
+        best = step(best, at, encoding.transform.slope(at) / factor, missing)
+        at, missing, error = errors(best)
     return best, error
+
+
+def _trust(apart: Array, valid: NDArray[np.bool_]) -> Array:
+    """Weights in [0, 1] of samples that are `apart` from a fit, near 1 where that is no more than common:
+    Cauchy's."""
+    common = max(1.4826 * float(np.median(apart[valid])), LEAST_NOISE)
+    return np.asarray(1 / (1 + (apart / (OUTLIER * common)) ** 2), np.float32)
 
 
 def _interpolation(layout: Layout, angles: tuple[Array, ...]) -> list[Array]:
@@ -160,23 +184,24 @@ def _interpolation(layout: Layout, angles: tuple[Array, ...]) -> list[Array]:
 
 
 def bake_least_squares(
-    m: Reflectance, layout: Layout, floor_quantile: float, symmetrise: bool, steps: int = 1
+    m: Reflectance, layout: Layout, floor_quantile: float, symmetrise: bool, robust: bool = False
 ) -> Table:
     """A table that interpolates to what looks most like `m`.
 
-    See `evaluate` for `symmetrise`. Raises ReflectanceError when `m` is anisotropic and the basis is not, or when it
-    has no valid value.
+    See `evaluate` for `symmetrise`, `fit` for `robust`. Raises ReflectanceError when `m` is anisotropic and the basis
+    is not, or when it has no valid value.
     """
     seen, floor = _seen(m, [layout], SAMPLES if layout.basis.isotropic else CHOICE_SAMPLES, floor_quantile, symmetrise)
-    stored, _ = fit(seen, layout, floor, steps)
+    stored, _ = fit(seen, layout, floor, 1, robust)
     stored = np.moveaxis(stored, 0, -1)
     return Table.encoded(layout, stored, floor).named(m.name, f"{m.source or m.name}, baked by least squares")
 
 
-def choose(m: Reflectance, layouts: Sequence[Layout], floor_quantile: float, symmetrise: bool) -> int:
-    """Which of some layouts of one basis and encoding fits `m` best. See `bake_least_squares`."""
+def rank(m: Reflectance, layouts: Sequence[Layout], floor_quantile: float, symmetrise: bool) -> list[int]:
+    """Layouts of one basis and encoding by how well they fit `m`, about; the best first. See `bake_least_squares`."""
     seen, floor = _seen(m, layouts, CHOICE_SAMPLES, floor_quantile, symmetrise)
-    return int(np.argmin([fit(seen, layout, floor, steps=0)[1] for layout in layouts]))
+    errors = map_threads(lambda layout: fit(seen, layout, floor, steps=0)[1], layouts)
+    return [int(index) for index in np.argsort(errors)]
 
 
 def _seen(

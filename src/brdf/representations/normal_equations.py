@@ -16,6 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.floating[Any]]
+THREADED = 1 << 18
+"""Multiplications from which OpenBLAS takes more than one thread for a product of matrices."""
+
 Stencil = list[tuple[tuple[int, ...], Array]]
 """A sparse symmetric matrix over a grid: for each offset s to a neighbour the entries (channels, *shape) of the pairs
 (node, node + s); 0 where there is no such neighbour."""
@@ -44,10 +47,19 @@ def gather(samples: Array, axes: Sequence[Array]) -> Array:
 
 
 def _along(matrix: Array, x: Array, k: int) -> Array:
-    """`matrix` times x along its axis k, without moving axes about in memory."""
+    """`matrix` times x along its axis k, without moving axes about in memory.
+
+    In blocks that the linear algebra library leaves to one thread: its own threads cost more than such products.
+    """
     before, after = x.shape[:k], x.shape[k + 1 :]
     rows = x.reshape(-1, x.shape[k], math.prod(after))
-    product = matrix @ rows if after else rows[..., 0] @ matrix.T
+    block = max(1, THREADED // matrix.size)
+    if after:
+        starts = range(0, rows.shape[-1], block)
+        product = np.concatenate([matrix @ rows[..., i : i + block] for i in starts], axis=-1)
+    else:
+        starts = range(0, len(rows), block)
+        product = np.concatenate([rows[i : i + block, :, 0] @ matrix.T for i in starts])
     return product.reshape(*before, len(matrix), *after)
 
 

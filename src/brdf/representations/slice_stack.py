@@ -19,13 +19,15 @@ from numpy.typing import NDArray
 from ..errors import ParameterError, ReflectanceError, UnknownNameError
 from ..geometry.directions import from_half_difference
 from ..geometry.warps import HALF_PI, Circle, FarPower, Power, SquaredSine, Warp, identity
+from ..metrics.sphere import psnr, sphere_pairs
 from ..reflectance import Reflectance
+from .albedo_table import NBYTES as ALBEDO_BYTES
 from .anisotropic import AnisotropicHalfBasis
 from .bake import bake_points
 from .bases import HalfBasis
 from .encoding import Encoding, Log
 from .layout import Layout
-from .least_squares import bake_least_squares, choose
+from .least_squares import bake_least_squares, rank
 from .table import Table
 
 Array = NDArray[np.floating[Any]]
@@ -41,6 +43,9 @@ MOST_BYTES = 1 << 26
 CONSTANT_BYTES = 36
 """Floor, low and span of three channels."""
 
+OVERHEAD = CONSTANT_BYTES + ALBEDO_BYTES
+"""Bytes that are not nodes."""
+
 CHOICE_BYTES = 16 << 10
 """The split of bigger budgets is chosen at this size, which is quick."""
 
@@ -49,6 +54,15 @@ MEASURED_FLOOR = 0.002
 
 SYMMETRY_TOLERANCE = 0.02
 """Mean difference between mirror images, in parts of the mean value, that counts as none."""
+
+FOLDS = ("quarter-turn", "half-turn", "mirror")
+"""Symmetries of phi_d, as `HalfBasis` has them."""
+
+ASYMMETRY = 1e-3
+"""Mean difference between images, in parts of the mean value, that a fold may average without another being tried."""
+
+CHOICE_PICTURE = 32
+"""Pixels across the pictures of a sphere by which stacks are told apart."""
 
 METHODS = ("least-squares", "points")
 
@@ -72,6 +86,9 @@ SPLITS = (
 """Found on the published fits of 100 materials, microfacet models, and Oren-Nayar's: each is the best of some."""
 
 
+HALF_TURN = identity(math.pi)
+"""The warp of phi_d over half a turn: the first harmonic, cos phi_d, is linear."""
+
 ANISOTROPIC_PROPORTIONS = (20.0, 36.0, 14.0, 7.0)
 """Proportions of the numbers of nodes along phi_h over half a turn, theta_h, theta_d, phi_d over a quarter turn."""
 
@@ -86,42 +103,93 @@ class SliceStack:
 
     @staticmethod
     def bake(
-        m: Reflectance, budget: str | int = "16K", method: str = "least-squares", anisotropic: bool = False
+        m: Reflectance,
+        budget: str | int = "16K",
+        method: str = "least-squares",
+        anisotropic: bool = False,
+        fold: str | None = None,
     ) -> Table:
         """`m` as a slice stack of at most `budget` bytes: a number, or a text such as "16K", "24576" or "1M".
 
         `method` is "least-squares" or "points" (evaluation at the nodes: for photographs; less exact). Of measured
-        values the floor is a low quantile, and directions that the folds join are averaged. With `anisotropic` the
-        table has an azimuth, too; its `nbytes` says what that costs. Raises ReflectanceError when `m` is anisotropic
-        and `anisotropic` is not set, ParameterError for an impossible budget, UnknownNameError for an unknown method.
+        values the floor is a low quantile, directions that the fold joins are averaged, and of bins outliers count
+        little. With `anisotropic` the table has an azimuth, too; its `nbytes` says what that costs.
+
+        `fold` names the symmetries used: "quarter-turn" (reciprocity and mirror symmetry), "half-turn" (reciprocity
+        alone) or "mirror" (mirror symmetry alone). By default that of measured values is the one whose pictures are
+        nearest, that of all others "quarter-turn". A stack folded by "mirror" is not reciprocal.
+
+        Raises ReflectanceError when `m` is anisotropic and `anisotropic` is not set, ParameterError for an impossible
+        budget, or fold, UnknownNameError for an unknown method.
         """
         size = parse_budget(budget)
         if method not in METHODS:
             raise UnknownNameError("bake method", method, METHODS)
+        if fold is not None and fold not in FOLDS:
+            raise UnknownNameError("fold", fold, FOLDS)
+        if anisotropic and fold is not None:
+            raise ParameterError("a stack with an azimuth is folded by the symmetries it finds; leave `fold` out")
         if not m.isotropic and not anisotropic:
             raise ReflectanceError(
                 f"{m.name or type(m).__name__} is anisotropic; bake it with anisotropic=True, which adds an axis"
             )
-        measured = is_measured(m)
-        floor_quantile = MEASURED_FLOOR if measured else 0.0
-        layouts = [_anisotropic_layout(m, size)] if anisotropic else SliceStack.layouts(size)
+        if anisotropic:
+            return _baked(m, _anisotropic_layout(m, size), method)
         if method == "points":
-            return bake_points(m, layouts[0], floor_quantile, symmetrise=measured)
-        best = 0
-        if not anisotropic:
-            best = choose(m, SliceStack.layouts(min(size, CHOICE_BYTES)), floor_quantile, symmetrise=False)
-        return bake_least_squares(m, layouts[best], floor_quantile, symmetrise=measured)
+            return _baked(m, _layout(SPLITS[0], size, fold or FOLDS[0]), method).with_albedo()
+        folds = [fold] if fold else _folds_of(m) if is_measured(m) else FOLDS[:1]
+        return _nearest(m, [_fitted(m, size, each) for each in folds]).with_albedo()
 
 
-def _layout(split: Split, size: int) -> Layout:
+def _baked(m: Reflectance, layout: Layout, method: str) -> Table:
+    measured = is_measured(m)
+    quantile = MEASURED_FLOOR if measured else 0.0
+    if method == "points":
+        return bake_points(m, layout, quantile, symmetrise=measured)
+    return bake_least_squares(m, layout, quantile, symmetrise=measured, robust=isinstance(m, Table) and m.has_holes)
+
+
+def _fitted(m: Reflectance, size: int, fold: str) -> Table:
+    """A stack of the split that suits `m`; with less symmetry, of the one that mostly does.
+
+    Fits to few samples rank the splits; pictures tell the best two apart.
+    """
+    if fold != FOLDS[0]:
+        return _baked(m, _layout(SPLITS[0], size, fold), "least-squares")
+    small = min(size, CHOICE_BYTES)
+    layouts = SliceStack.layouts(small)
+    likely = rank(m, layouts, MEASURED_FLOOR if is_measured(m) else 0.0, symmetrise=False)[:2]
+    stack = _nearest(m, [_baked(m, layouts[index], "least-squares") for index in likely])
+    if small == size:
+        return stack
+    return _baked(m, SliceStack.layouts(size)[layouts.index(stack.layout)], "least-squares")
+
+
+def _folds_of(m: Reflectance) -> list[str]:
+    """The folds worth trying: those that spare something that the first one averages."""
+    wi, wo = sphere_pairs(CHOICE_PICTURE)
+    mirror = np.array([1, -1, 1], np.float32)
+    value = m(wi, wo)
+    images = {"mirror": (wo, wi), "half-turn": (wi * mirror, wo * mirror)}  # what the fold tells apart
+    scale = ASYMMETRY * np.abs(value).mean()
+    return [FOLDS[0], *(fold for fold, pair in images.items() if np.abs(m(*pair) - value).mean() > scale)]
+
+
+def _nearest(m: Reflectance, stacks: list[Table]) -> Table:
+    """The stack whose pictures are most like those of `m`."""
+    return stacks[0] if len(stacks) == 1 else max(stacks, key=lambda stack: psnr(m, stack, CHOICE_PICTURE))
+
+
+def _layout(split: Split, size: int, fold: str = "quarter-turn") -> Layout:
     """The layout of so many bytes."""
-    nodes = (size - CONSTANT_BYTES) // 4
-    scale = (nodes / math.prod(split.proportions)) ** (1 / 3)
-    azimuths = max(2, round(scale * split.proportions[2]))
-    slices = max(2, round(math.sqrt(nodes / azimuths * split.proportions[1] / split.proportions[0])))
+    basis, nodes = HalfBasis(fold), (size - OVERHEAD) // 4
+    first, second, third = split.proportions
+    third *= basis.extents[2] / HALF_PI
+    azimuths = max(2, round(third * (nodes / (first * second * third)) ** (1 / 3)))
+    slices = max(2, round(math.sqrt(nodes / azimuths * second / first)))
     shape = nodes // (azimuths * slices), slices, azimuths
-    warps = Power(exponent=2.4), _slices(slices), split.phi_d
-    return Layout(HalfBasis("quarter-turn"), warps, shape, ENCODING, "10-10-10")
+    warps = Power(exponent=2.4), _slices(slices), split.phi_d if fold == "quarter-turn" else HALF_TURN
+    return Layout(basis, warps, shape, ENCODING, "10-10-10")
 
 
 def _anisotropic_layout(m: Reflectance, size: int) -> Layout:

@@ -16,8 +16,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..errors import BrdfError, UnknownNameError
 from ..formula import Vec
-from ..geometry.arguments import broadcast_directions
+from ..formula.engine import check_lengths
+from ..geometry.arguments import as_directions, broadcast_directions
 from ..reflectance import Reflectance
+from .albedo_table import NBYTES, AlbedoTable, restored, tabulate
 from .bases import cos_difference
 from .filters import PREFILTERED, prefiltered
 from .layout import Layout, layout_from
@@ -31,7 +33,8 @@ class Table(Reflectance):
 
     `codes` are the stored numbers (see `storage`), `constants` the (3,) arrays that go with them: `floor` where the
     encoding uses one, `low` and `span` for packed storage. `measured`, if given, says for each node (shape of the
-    grid) whether its value was measured; the other nodes hold values filled in from their neighbours.
+    grid) whether its value was measured; the other nodes hold values filled in from their neighbours. `albedos`, if
+    given, is the table's directional albedo (see `with_albedo`).
     """
 
     grid: Any
@@ -44,8 +47,10 @@ class Table(Reflectance):
         codes: NDArray[Any],
         constants: Mapping[str, ArrayLike] | None = None,
         measured: NDArray[np.bool_] | None = None,
+        albedos: AlbedoTable | None = None,
     ) -> None:
         self.layout = layout
+        self._albedos = albedos
         self._codes = codes
         self._values = {k: np.asarray(v, np.float64) for k, v in (constants or {}).items()}
         texels = storage(layout.storage).texels(codes)
@@ -163,14 +168,33 @@ class Table(Reflectance):
 
     @property
     def nbytes(self) -> int:
-        """The codes, 4 bytes a constant, and 1 bit a node for what was measured."""
+        """The codes, 4 bytes a constant, 1 bit a node for what was measured, and the albedos it carries."""
         mask = 0 if self._measured is None else (self._measured.size + 7) // 8
-        return self._codes.nbytes + mask + 4 * sum(np.size(v) for v in self._values.values())
+        albedos = 0 if self._albedos is None else NBYTES
+        return self._codes.nbytes + mask + albedos + 4 * sum(np.size(v) for v in self._values.values())
 
     def __repr__(self) -> str:
         layout = self.layout
         size = " x ".join(f"{n} {axis}" for n, axis in zip(layout.shape, layout.basis.axes, strict=True))
         return f"Table({self.name or 'unnamed'}: {size}, {layout.storage}, {self.nbytes:,} bytes)"
+
+    # ---- albedo ------------------------------------------------------------------------------------------------
+
+    def with_albedo(self) -> Table:
+        """This table with its directional albedo computed, which `albedo` then looks up and files keep.
+
+        Raises ReflectanceError for an anisotropic table.
+        """
+        table = Table(self.layout, self._codes, self._values, self._measured, tabulate(self))
+        return table.named(self.name, self.source)
+
+    def _albedo(self, wo: ArrayLike, samples: int) -> tuple[Array, Array]:
+        if self._albedos is None:
+            return super()._albedo(wo, samples)
+        wo = as_directions("wo", np.asarray(wo))
+        check_lengths(wo=wo.reshape(-1, 3))
+        albedo, error = self._albedos.look_up(wo[..., 2])
+        return albedo.astype(wo.dtype), error.astype(wo.dtype)
 
     # ---- the grid ----------------------------------------------------------------------------------------------
 
@@ -212,6 +236,8 @@ class Table(Reflectance):
         arrays = {"codes": self._codes}
         if self._measured is not None:
             arrays["measured"] = np.packbits(self._measured)
+        if self._albedos is not None:
+            arrays["albedo"] = np.stack(self._albedos)
         return header, arrays
 
     @classmethod
@@ -224,4 +250,5 @@ class Table(Reflectance):
         if "measured" in arrays:
             bits = np.unpackbits(arrays["measured"], count=int(np.prod(layout.shape)))
             measured = bits.reshape(layout.shape).astype(np.bool_)
-        return cls(layout, arrays["codes"], header["constants"], measured)
+        albedos = restored(arrays["albedo"]) if "albedo" in arrays else None
+        return cls(layout, arrays["codes"], header["constants"], measured, albedos)
