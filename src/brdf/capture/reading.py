@@ -15,6 +15,7 @@ from .ball import Ball, ball_of_mask, ball_of_pictures
 from .ball_photographs import BallPhotographs
 from .lights import read_directions, read_intensities
 from .photographs import EXTENSIONS, Photograph, Response, pictures_in, read_photograph, response_of
+from .response_choice import CANDIDATES, chosen_response
 
 Array = NDArray[np.floating[Any]]
 
@@ -44,7 +45,8 @@ def read_ball(
 ) -> tuple[BallPhotographs, list[str], list[str]]:
     """The photographs of a folder in units of their files (1 is the largest number), the warnings, and facts to report.
 
-    See `brdf.capture.sphere` for the arguments. Raises FileError, CorruptFileError, ParameterError.
+    Without a response, files of 8 bits get the one that suits them (`response_choice`). See `brdf.capture.sphere` for
+    the arguments. Raises FileError, CorruptFileError, ParameterError.
     """
     paths, masks = pictures_in(folder, [p for p in (mask, dark) if p is not None])
     if len(paths) < 2:
@@ -54,11 +56,21 @@ def read_ball(
     directions = read_directions(folder, lights, len(paths))
     strength = read_intensities(folder, intensities, len(paths))
     first = read_photograph(paths[0])
-    curve = response_of(response, first.deep)
-    reader = _Reader(paths, curve, first, _dark_frame(folder, dark, first, curve), progress)
+
+    def reader_for(curve: Response) -> _Reader:
+        return _Reader(paths, curve, first, _dark_frame(folder, dark, first, curve), progress)
+
+    curve, why = response_of(response, first.deep), ""
+    reader = reader_for(curve)
     warnings: list[str] = []
     ball, how = _find_ball(folder, mask, masks, reader)
     made, clipped = _cropped(reader, ball, directions, strength)
+    if response is None and not first.deep:
+        other = _cropped(reader_for(Response("linear")), ball, directions, strength)[0]
+        progress("choosing the camera's response")
+        readings = dict(zip(CANDIDATES, (made, other), strict=True))
+        name, why = chosen_response(readings, strength)
+        curve, made = Response(name), readings[name]
     if clipped > CLIPPED:
         warnings.append(
             f"{clipped:.2%} of the ball's pixels are saturated; they are filled from other photographs: expose "
@@ -71,7 +83,8 @@ def read_ball(
             "dark frame with the lights off, and darken the room"
         )
     facts = [
-        f"{len(paths)} photographs of {first.pixels.shape[1]} x {first.pixels.shape[0]} pixels, response {curve.name}",
+        f"{len(paths)} photographs of {first.pixels.shape[1]} x {first.pixels.shape[0]} pixels, response {curve.name}"
+        + (f" (chosen: {why}; --response says otherwise)" if why else ""),
         f"ball ({how}): centre {ball.x:.1f}, {ball.y:.1f} from the top left, radius {ball.radius:.1f} pixels",
         f"lights {np.degrees(made.angles).min():.1f} to {np.degrees(made.angles).max():.1f} degrees from the camera",
     ]

@@ -68,7 +68,7 @@ def sphere(
     `light_directions.txt` or `lights.txt`: a line x y z a photograph, x right, y up, z to the camera; perhaps
     `light_intensities.txt` (r g b), a mask `*mask*` that is white on the ball, a dark frame `*dark*`. The other
     arguments name such files elsewhere. `response`: "linear", "srgb" or a gamma; by default linear for more than 8
-    bits, sRGB for 8. Without a mask the ball is found on dark ground.
+    bits, for 8 the one of linear and sRGB that suits the photographs. Without a mask the ball is found on dark ground.
 
     Photographs have no absolute scale. `white` sets it: the number, as a share of the largest and linear, that a white
     diffuser facing the light shows; else `albedo`, the ball's diffuse albedo (its luminance), by default 0.5.

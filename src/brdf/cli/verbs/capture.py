@@ -40,7 +40,7 @@ def sphere(
     mask: Annotated[Path | None, typer.Option(metavar="FILE", help="Picture, white on the ball. [*mask*]")] = None,
     dark: Annotated[Path | None, typer.Option(metavar="FILE", help="Picture with the lights off. [*dark*]")] = None,
     response: Annotated[
-        str | None, typer.Option(metavar="CURVE", help="linear, srgb or a gamma. [8 bits: srgb, else linear]")
+        str | None, typer.Option(metavar="CURVE", help="linear, srgb or a gamma. [8 bits: srgb or linear, else linear]")
     ] = None,
     albedo: Annotated[float | None, typer.Option(help="Diffuse albedo of the ball, sets the scale. [0.5]")] = None,
     white: Annotated[
