@@ -67,7 +67,8 @@ def _statistics(report: Report, name: str, caption: str, found: Measured) -> Non
         for statistic, of in (("median", found.median), ("worst", found.worst))
         for option in found.options
     ]
-    report.table(name, caption, columns, rows, HOW, " ".join(_best(found, error) for error in (0, 1)))
+    verdict = " ".join(_best(found, error) for error in (0, 1))
+    report.table(name, caption, ["statistic", "table", *columns], rows, HOW, verdict)
 
 
 def _best(found: Measured, error: int) -> str:
