@@ -164,11 +164,11 @@ def _numbers(report: Report, settings: Settings, name: str, found: Found) -> Non
         "Figure 4 in numbers",
         ["method", Column("memory", "KB", ",.0f", "ours"), Column("a texel", "bytes", ",.0f", "ours"),
          Column("per texel", "1", ".3f", "ours"), Column("histogram", "1", ".3f", "ours"),
-         *(Column(f"lamp as photographed, seen from {angle:g}°", "1", ".3f", "ours") for angle in rings)],
+         *(Column(f"from {angle:g}°", "1", ".3f", "ours") for angle in rings)],
         rows,
         f"{name.capitalize()}, {settings.full_btf}² texels, 8 bits a channel. Relative RMS error against the complete "
-        "BTF, mean over all lights and views; in the last columns per texel, over the lights at the azimuth of the "
-        "photographs.",
+        "BTF, mean over all lights and views; in the last columns per texel by the viewer's angle, over the lights at "
+        "the azimuth of the photographs.",
         f"With r the true average and the lamp where it was photographed, the shading map's error per texel is "
         f"{first:.2f} seen from {ends[0]:g}° and {last:.2f} from {ends[1]:g}°, {last / first:.1f} times as much; with "
         f"the lamp all around {around[0]:.2f} and {around[1]:.2f}. A shading map has neither masking nor parallax, and "
@@ -179,9 +179,9 @@ def _numbers(report: Report, settings: Settings, name: str, found: Found) -> Non
         f"Relative RMS error per texel against the angle of the viewer ({name}): lamps at the azimuth of the "
         "photographs, and all around.",
         curves(
-            {f"{method}{words}": (rings, [found.mean(method, views=angle, photographed=only) for angle in rings])
-             for only, words in ((True, ", as photographed"), (False, ", all around"))
-             for method in (PCA, TRUE_R, OWN)},
+            {f"{short}, {words}": (rings, [found.mean(method, views=angle, photographed=only) for angle in rings])
+             for only, words in ((True, "as taken"), (False, "all around"))
+             for method, short in ((PCA, "components"), (TRUE_R, "map, true r"), (OWN, "map, own BRDF"))},
             "viewer from the normal [degrees]", "relative RMS error",
         ),
     )  # fmt: skip

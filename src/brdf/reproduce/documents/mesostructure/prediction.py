@@ -28,7 +28,7 @@ REAL = Path("flat") / "loewenkopf"
 
 @dataclass(frozen=True)
 class Predictions:
-    """PSNR [dB] by material, of the geometric mean of RMS errors as shares of white."""
+    """By material; PSNR [dB] with white as the peak."""
 
     at_photographs: Mapping[str, float]
     between: Mapping[str, float]
@@ -38,7 +38,7 @@ class Predictions:
 
     @staticmethod
     def mean(found: Mapping[str, float]) -> float:
-        """Of geometric means: that of all errors."""
+        """The PSNR of the geometric mean of the materials' RMS errors."""
         return float(np.mean(list(found.values())))
 
 
@@ -70,9 +70,9 @@ def present(report: Report, settings: Settings, samples: Sequence[Sample]) -> Pr
         ["sample", Column("its own, worst RMS", "of white", ".0e", "ours"), Column("in between", "dB", ".1f", "ours"),
          Column("one left out", "dB", ".1f", "ours")],
         rows,
-        f"PSNR of the geometric mean of the RMS error, white as the peak. In between: {BETWEEN[0]:g}, "
-        f"{BETWEEN[1]:g}, … {BETWEEN[-1]:g}°. One left out: each photograph but the highest and the lowest lamp's, "
-        "from a map and an average BRDF of the others.",
+        f"PSNR over all pictures, white as the peak; all: of the geometric mean of the RMS. In between: "
+        f"{BETWEEN[0]:g}, {BETWEEN[1]:g}, … {BETWEEN[-1]:g}°. One left out: each photograph but the highest and the "
+        "lowest lamp's, from a map and an average BRDF of the others.",
         "" if real is not None else "No photographs of a real sample: BRDF_DATA does not name a folder that has them.",
     )  # fmt: skip
     report.figure(

@@ -103,8 +103,8 @@ def rms(a: Floats, b: Floats) -> float:
 
 
 def decibels(errors: Iterable[float]) -> float:
-    """The PSNR of the geometric mean of RMS errors, as shares of white."""
-    return -20 * float(np.mean(np.log10(list(errors))))
+    """The PSNR of several pictures together, of their RMS errors as shares of white."""
+    return -10 * float(np.log10(np.mean(np.square(list(errors)))))
 
 
 def geometric(values: Iterable[float]) -> float:

@@ -67,50 +67,66 @@ class Errors:
         return float(self.found[technique][rows][:, elevations, azimuths, :, kind].mean())
 
 
+KINDS = ("per texel", "histogram")
+AROUND = ("as photographed", "all around")
 COLUMNS: Mapping[str, tuple[int, slice, slice]] = {
     f"{kind}, θi {angles}, {azimuth}": (number, part, turned)
-    for azimuth, turned in (("as photographed", slice(0, 1)), ("any azimuth", slice(0, 4)))
+    for azimuth, turned in zip(AROUND, (slice(0, 1), slice(0, 4)), strict=True)
     for angles, part in (("≤ 40°", HIGH), ("≥ 60°", LOW))
-    for number, kind in enumerate(("per texel", "histogram"))
+    for number, kind in enumerate(KINDS)
 }
+"""Kind of error, lamps and azimuths by title: first those where the lamp was photographed."""
 
 
 def present(report: Report, settings: Settings, samples: Sequence[Sample]) -> Errors:
     """The figure, and its numbers, which are returned."""
     _rendered(report, settings, samples)
     errors = _measured(report, settings, [sample.name for sample in samples])
-    best = {
-        title: min(TECHNIQUES, key=lambda technique: errors.mean(technique, *where)) for title, where in COLUMNS.items()
-    }
-    won = [title for title, technique in best.items() if technique == SHADING]
-    lost = [f"{title} ({technique})" for title, technique in best.items() if technique != SHADING]
+    for number, azimuth in enumerate(AROUND):
+        _table(report, settings, errors, azimuth, ("techniques", "techniques-all-around")[number])
+    _by_material(report, errors)
+    return errors
+
+
+def _table(report: Report, settings: Settings, errors: Errors, azimuth: str, name: str) -> None:
+    """Means over the materials."""
+    columns = {title: where for title, where in COLUMNS.items() if title.endswith(azimuth)}
+    best = {title: min(TECHNIQUES, key=lambda way: errors.mean(way, *where)) for title, where in columns.items()}
+    lost = [f"{_short(title)} ({technique})" for title, technique in best.items() if technique != SHADING]
     report.table(
-        "techniques",
-        "The techniques against complete BTFs",
-        ["technique", *(Column(title, "1", ".3f", "ours") for title in COLUMNS)],
-        [
-            [technique, *(errors.mean(technique, *where) for where in COLUMNS.values())]
-            for technique in TECHNIQUES
-        ],
+        name,
+        f"The techniques against complete BTFs, the lamp {azimuth}",
+        ["technique", *(Column(_short(title), "1", ".3f", "ours") for title in columns)],
+        [[technique, *(errors.mean(technique, *where) for where in columns.values())] for technique in TECHNIQUES],
         f"Mean over {len(errors.names)} materials and {len(VIEWS)} views of the relative RMS error; truth: ray-marched "
         f"BTFs of {settings.btf}² texels with masking and parallax. r is the true average of the picture, so that what "
         "differs is the structure. Histogram: RMS difference of the sorted luminances.",
-        f"Lookup with r is lowest in {len(won)} of {len(COLUMNS)} columns"
+        f"Lookup with r is lowest in {len(columns) - len(lost)} of {len(columns)} columns"
         + (f"; elsewhere: {', '.join(lost)}." if lost else "."),
-    )  # fmt: skip
-    report.table(
-        "techniques-materials",
-        "The same material by material",
-        ["material", *(Column(f"{technique}, {title}", "1", ".2f", "ours")
-                       for title in list(COLUMNS)[:4] for technique in (LIT, ANGULAR, SHADING))],
-        [
-            [name, *(errors.mean(technique, *COLUMNS[title], names=[name])
-                     for title in list(COLUMNS)[:4] for technique in (LIT, ANGULAR, SHADING))]
-            for name in errors.names
-        ],
-        "The lamp at the azimuth of the photographs.",
-    )  # fmt: skip
-    return errors
+    )
+
+
+def _by_material(report: Report, errors: Errors) -> None:
+    shown = (LIT, ANGULAR, SHADING)
+    for number, kind in enumerate(KINDS):
+        columns = {title: where for title, where in list(COLUMNS.items())[:4] if where[0] == number}
+        report.table(
+            f"techniques-materials-{number + 1}",
+            f"Material by material: {kind}",
+            ["material", *(Column(f"{technique}, {title.split(', ')[1]}", "1", ".2f", "ours")
+                           for title in columns for technique in shown)],
+            [
+                [name, *(errors.mean(technique, *where, names=[name])
+                         for where in columns.values() for technique in shown)]
+                for name in errors.names
+            ],
+            f"The lamp {AROUND[0]}.",
+        )  # fmt: skip
+
+
+def _short(title: str) -> str:
+    """Without the azimuth."""
+    return title.rsplit(", ", 1)[0]
 
 
 def _rendered(report: Report, settings: Settings, samples: Sequence[Sample]) -> None:
