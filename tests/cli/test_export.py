@@ -35,7 +35,7 @@ def test_json_names_the_function_and_the_files(brdf: Command, tmp_path: Path) ->
     [
         (("GGX", "m.hlsl"), "brdf: m.hlsl: shaders are written as .glsl or .wgsl; choose one of them."),
         (("GGX", "none/m.glsl"), "brdf: none/m.glsl: cannot be written (No such file or directory); choose another"),
-        (("GGX", "m.glsl", "--function", "1st"), "a function's name has letters, digits and single underscores"),
+        (("GGX", "m.glsl", "--function", "1st"), "a function's name has letters, digits, single underscores"),
         (("GGX", "m.glsl", "--as", "tabel"), "did you mean 'table'"),
         (("GXG", "m.glsl"), "did you mean 'GGX'"),
     ],

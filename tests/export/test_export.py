@@ -14,11 +14,12 @@ import brdf
 from brdf import io
 from brdf.errors import FileError, FormulaError, ParameterError, ReflectanceError, UnknownFormatError
 from brdf.export.texels import images
-from brdf.formula import Vec
+from brdf.formula import Vec, texture2d
 from brdf.models import GGX, SGD, Mirror
-from brdf.parameters import Parameterised
+from brdf.parameters import Parameterised, texture
 from brdf.representations.adaptive import Adaptive
 from cards import HEADERS, GLCard, WebCard, texels
+from helpers import random_directions
 
 RNG = np.random.default_rng(4)
 
@@ -98,7 +99,7 @@ def test_the_example_of_wgsl_compiles(web: WebCard, tmp_path: Path) -> None:
 @pytest.mark.parametrize("channels", [1, 2, 3, 4])
 def test_textures_keep_their_numbers_in_few_bits(samples: np.ndarray, kind: str, channels: int) -> None:
     data = np.resize(samples, (4, 3, 2, channels)).astype(np.float32)
-    (image,) = images(data, ("grid",), channels)
+    (image,) = images(data, {0: "grid"}, channels)
     assert image.size == (2, 3, 4)
     if kind != "10-bit" or channels == 3:
         assert image.kind == kind
@@ -120,9 +121,33 @@ def test_a_slice_stack_keeps_its_size(tmp_path: Path) -> None:
     assert "uniform sampler3D grid;" in shader.read_text("utf-8")
 
 
+class Made(Parameterised, brdf.Reflectance):
+    """Base of reflectances made for a test."""
+
+    def _state(self):
+        return {}, {}
+
+
+class LastChannels(Made):
+    planes = texture("six channels", np.zeros((2, 2, 6)), 2, 6)
+
+    def f(self, wi, wo):
+        found = texture2d(self.planes, wi.z, wo.z)
+        return Vec(found[3], found[5], found[4] * wi.z)
+
+
+def test_groups_of_channels_that_are_not_used_are_left_out(gl: GLCard, tmp_path: Path) -> None:
+    m = LastChannels(planes=RNG.random((5, 4, 6)))
+    shader = brdf.export(m, tmp_path / "m.glsl").files[0]
+    assert "uniform sampler2D planes_1;" in shader.read_text()
+    assert "planes_0" not in shader.read_text()
+    wi, wo = (random_directions(50, seed).astype("f4") for seed in (1, 2))
+    np.testing.assert_allclose(gl.evaluate(shader, wi, wo, wi[:, :2]), m(wi, wo), rtol=2e-6)
+
+
 def test_more_channels_than_four_become_several_textures(tmp_path: Path) -> None:
     data = RNG.random((5, 4, 6)).astype(np.float32)
-    first, second = images(data, ("planes_0", "planes_1"), 3)
+    first, second = images(data, {0: "planes_0", 1: "planes_1"}, 3)
     for image, part in ((first, data[..., :3]), (second, data[..., 3:])):
         found = np.frombuffer(image.texels, "<f4").reshape(5, 4, 4)
         np.testing.assert_array_equal(found[..., :3], part)
@@ -144,26 +169,33 @@ def test_what_has_no_formula_says_to_bake_first(tmp_path: Path) -> None:
 
 
 def test_a_function_name_that_is_none_is_refused(tmp_path: Path) -> None:
-    for name in ("1st", "a b", "gl__x", ""):
-        with pytest.raises(ParameterError, match="letters, digits and single underscores"):
+    for name in ("1st", "a b", "gl__x", "", "mix", "linear3"):
+        with pytest.raises(ParameterError, match="letters, digits, single underscores and is no word of the language"):
             brdf.export(GGX(), tmp_path / "m.glsl", name)
+    with pytest.raises(ParameterError, match="must differ from the parameters' F0, alpha"):
+        brdf.export(GGX(), tmp_path / "m.glsl", "alpha")
+
+
+def test_names_and_sources_cannot_break_the_text(gl: GLCard, tmp_path: Path) -> None:
+    wild = GGX().named("Löw–GGX\nvoid main() {}", "C:\\folder\\ */ × 2")
+    shader = brdf.export(wild, tmp_path / "m.glsl").files[0]
+    assert "vec3 brdf_Low_GGX_void_main(vec3 wi, vec3 wo) {" in shader.read_text("ascii")
+    wi = np.array([[0, 0, 1]], "f4")
+    np.testing.assert_allclose(gl.evaluate(shader, wi, wi, wi[:, :2]), wild(wi, wi), rtol=1e-6)
 
 
 def test_textures_too_large_for_cards_are_refused() -> None:
     with pytest.raises(ReflectanceError, match="2 x 2 x 2049 texels does not fit graphics cards"):
-        next(images(np.zeros((2049, 2, 2, 3), np.float32), ("grid",), 3))
+        next(images(np.zeros((2049, 2, 2, 3), np.float32), {0: "grid"}, 3))
 
 
 def test_numbers_beyond_single_precision_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ParameterError, match=r"Lambda = .* is beyond single precision"):
         brdf.export(SGD(Lambda=1e39), tmp_path / "m.glsl")
 
-    class Faint(Parameterised, brdf.Reflectance):
+    class Faint(Made):
         def f(self, wi, wo):
             return Vec(wi.x, wi.y, wi.z * 1e-40)
-
-        def _state(self):
-            return {}, {}
 
     with pytest.raises(FormulaError, match="holds the constant 1e-40, which a shader's numbers cannot; rescale it"):
         brdf.export(Faint(), tmp_path / "m.glsl")

@@ -14,18 +14,19 @@ import numpy as np
 from ..combinators.varying import declaration
 from ..container import replacing
 from ..errors import ParameterError, ReflectanceError, UnknownFormatError
-from ..formula.printers.glsl import print_glsl
+from ..formula.printers import glsl, wgsl
 from ..formula.printers.lanes import group_size
 from ..formula.printers.shader import Body, Uniform
-from ..formula.printers.wgsl import print_wgsl, uniform_layout
 from ..formula.trace import trace
 from ..parameters import Parameter
 from ..reflectance import Reflectance
-from .header import header
+from .header import header, in_ascii
 from .texels import images
 
-LANGUAGES: dict[str, Callable[..., tuple[str, Body]]] = {".glsl": print_glsl, ".wgsl": print_wgsl}
+LANGUAGES: dict[str, Callable[..., tuple[str, Body]]] = {".glsl": glsl.print_glsl, ".wgsl": wgsl.print_wgsl}
 """Printers by file extension."""
+
+RESERVED = {".glsl": glsl.RESERVED, ".wgsl": wgsl.RESERVED}
 
 MOST_TEXTURES = 16
 """That every card binds to one shader at a time."""
@@ -61,11 +62,15 @@ def export(m: Reflectance, path: str | os.PathLike[str], function: str | None = 
             "as in `brdf convert X baked.safetensors --as slice-stack`"
         )
     name = function_name(m) if function is None else function
-    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*", name):
-        raise ParameterError(f"a function's name has letters, digits and single underscores, got {name!r}")
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*", name) or name in RESERVED[language]:
+        rule = "letters, digits, single underscores and is no word of the language"
+        raise ParameterError(f"a function's name has {rule}; got {name!r}")
     declared = {key: declaration(m, key) for key in m.values}
     notes = {key: _note(m.values[key], declared[key]) for key in m.values}
     text, body = LANGUAGES[language](trace(m), name, has_horizon=not m.transmits, varies=m.varies, notes=notes)
+    taken = {u.name for u in body.uniforms}.union(*(sampled.names.values() for sampled in body.textures))
+    if name in taken:
+        raise ParameterError(f"the function's name must differ from the parameters' {', '.join(sorted(taken))}")
     if sum(len(sampled.names) for sampled in body.textures) > MOST_TEXTURES:
         raise ReflectanceError(f"{m.name} has more than the {MOST_TEXTURES} textures that graphics cards bind; bake it")
     parameters = [_parameter(u, m.values[u.parameter], declared[u.parameter]) for u in body.uniforms]
@@ -84,9 +89,9 @@ def export(m: Reflectance, path: str | os.PathLike[str], function: str | None = 
         "textures": textures,
     }
     if language == ".wgsl":
-        description |= uniform_layout(body)
+        description |= wgsl.uniform_layout(body)
     described = json.dumps(description, indent=2, ensure_ascii=False) + "\n"
-    contents = [(header(m, name, language) + text).encode(), described.encode(), data]
+    contents = [in_ascii(header(m, name, language) + text), described.encode(), data]
     for file, content in reversed([*zip(files, contents, strict=False)]):  # the shader last: then all is there
         with replacing(file) as temporary:
             temporary.write_bytes(content)
@@ -103,7 +108,7 @@ def language_of(path: Path) -> str:
 
 def function_name(m: Reflectance) -> str:
     """`brdf_` and the name, of which only letters and digits are kept."""
-    words = re.findall(r"[A-Za-z0-9]+", m.name or type(m).__name__)
+    words = re.findall(r"[A-Za-z0-9]+", in_ascii(m.name or type(m).__name__).decode())
     return "_".join(["brdf", *words])[:60].rstrip("_")
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -48,8 +48,8 @@ class Image:
         return "rgb10a2unorm" if self.kind == "10-bit" else names[self.channels] + bits[self.kind]
 
 
-def images(data: NDArray[np.float32], names: tuple[str, ...], group: int) -> Iterator[Image]:
-    """The textures, by name, that hold `group` channels each of (n1, …, nk, C) samples.
+def images(data: NDArray[np.float32], names: Mapping[int, str], group: int) -> Iterator[Image]:
+    """The textures that hold `group` channels each of (n1, …, nk, C) samples; `names` by number of the group.
 
     The last axis is x. Raises ReflectanceError for more texels along an axis than common cards take.
     """
@@ -60,7 +60,7 @@ def images(data: NDArray[np.float32], names: tuple[str, ...], group: int) -> Ite
             f"a texture of {' x '.join(map(str, size))} texels does not fit graphics cards, which take "
             f"{LARGEST[len(size)]} along an axis; bake it smaller"
         )
-    for number, name in enumerate(names):
+    for number, name in names.items():
         part = data[..., number * group : (number + 1) * group]
         kind, numbers = _packed(part)
         yield Image(name, size, kind, 4 if part.shape[-1] == 3 else part.shape[-1], numbers.tobytes())

@@ -48,7 +48,7 @@ def _call(op: str, arguments: list[str]) -> str:
     return f"{_FUNCTIONS.get(op, op)}({', '.join(arguments)})"
 
 
-_KEYWORDS = """
+_WORDS = """
     abs active all any asm atan attribute bool break bvec2 bvec3 bvec4 case cast ceil centroid clamp class common const
     continue cos cross default degrees determinant discard distance do dot double else enum equal exp exp2 extern
     external false filter fixed flat float floor for fract goto half highp hvec3 if image in inline inout input int
@@ -59,13 +59,16 @@ _KEYWORDS = """
     uniform union unsigned using uvec2 uvec3 uvec4 varying vec2 vec3 vec4 void volatile while
 """
 
+RESERVED = helper_names("glsl").union(_WORDS.split())
+"""What nothing of a formula may be called: words of the language, and the library's functions."""
+
 
 def _dialect(kinds: Mapping[Expr, str]) -> Dialect:
     return Dialect(
         constant=literal,
         call=_call,
         negation=lambda text: f"!{text}",
-        reserved=helper_names("glsl").union(_KEYWORDS.split()),
+        reserved=RESERVED,
         declared=lambda node, name: f"{_TYPES.get(kinds[node], kinds[node])} {name}",
         in_place=in_place,
         doubled=True,
@@ -83,7 +86,11 @@ def print_glsl(
     inputs = ", ".join([*(f"vec3 {w}" for w in DIRECTIONS), *(["vec2 uv"] if varies else [])])
     lines = [
         *(_uniform("float" if u.size == 1 else "vec3", u.name, (notes or {}).get(u.parameter)) for u in made.uniforms),
-        *(_uniform(f"sampler{3 if t.texture.dimensions == 3 else 2}D", n) for t in made.textures for n in t.names),
+        *(
+            _uniform(f"sampler{3 if t.texture.dimensions == 3 else 2}D", n)
+            for t in made.textures
+            for n in t.names.values()
+        ),
     ]
     function = [
         f"vec3 {name}({inputs}) {{",

@@ -36,8 +36,13 @@ class Sampled:
     """A texture that the formula uses, as a shader has it."""
 
     texture: TextureRef
-    names: tuple[str, ...]
-    """In the shader, a group of channels each."""
+    names: dict[int, str]
+    """In the shader: number of a group of channels -> the texture that holds it."""
+
+    @property
+    def axes(self) -> int:
+        """Of the graphics card's textures: a row of texels is a picture of one row."""
+        return max(self.texture.dimensions, 2)
 
 
 @dataclass(frozen=True)
@@ -67,9 +72,12 @@ def body(program: Program, dialect: Callable[[Mapping[Expr, str]], Dialect], pre
     known |= {symbols[u.parameter]: prefix + u.name for u in uniforms}
     statements = Statements(made, lanes.graph.names, known)
     statements.add([lanes.outputs])
-    textures = {t: tuple(names[name] for name in group_names(t) if name in names) for t in program.textures}
-    sampled = tuple(Sampled(texture, found) for texture, found in textures.items() if found)
-    return Body(statements.lines, statements.text(lanes.outputs), uniforms, sampled)
+    sampled = (
+        Sampled(texture, {group: names[name] for group, name in enumerate(group_names(texture)) if name in names})
+        for texture in program.textures
+    )
+    used = tuple(texture for texture in sampled if texture.names)
+    return Body(statements.lines, statements.text(lanes.outputs), uniforms, used)
 
 
 def literal(value: float | bool) -> str:

@@ -18,7 +18,7 @@ _FUNCTIONS = {
 
 _SIGNS = {"lt3": "<", "le3": "<="}
 
-_KEYWORDS = """
+_WORDS = """
     Parameters parameters abs acos active alias all any array as asm async atan auto await bitcast bool break case cast
     catch ceil clamp class common compile const const_assert continue continuing cos cross crate debugger decltype
     default degrees delete determinant diagnostic discard distance do dot else enum exp exp2 explicit export extends
@@ -31,6 +31,9 @@ _KEYWORDS = """
     transpose true trunc try type typedef typeid typeof u32 union unless unorm unsafe unsized use using var vec2 vec2f
     vec3 vec3f vec4 vec4f virtual void volatile wgsl where while with writeonly yield
 """
+
+RESERVED = helper_names("wgsl").union(_WORDS.split())
+"""What nothing of a formula may be called: words of the language, and the library's functions."""
 
 
 def _call(op: str, arguments: list[str]) -> str:
@@ -49,7 +52,7 @@ def _dialect(kinds: Mapping[Expr, str]) -> Dialect:
         constant=literal,
         call=_call,
         negation=lambda text: f"!{text}",
-        reserved=helper_names("wgsl").union(_KEYWORDS.split()),
+        reserved=RESERVED,
         declared=lambda node, name: f"let {name}",
         in_place=in_place,
         doubled=True,
@@ -71,7 +74,7 @@ def print_wgsl(
         note = (notes or {}).get(u.parameter)
         fields.append(f"    {u.name}: {'f32' if u.size == 1 else 'vec3f'}," + (f"  // {note}" if note else ""))
     struct = ["struct Parameters {", *fields, "}", "@group(0) @binding(0) var<uniform> parameters: Parameters;"]
-    sampled = [(n, 3 if t.texture.dimensions == 3 else 2) for t in made.textures for n in t.names]
+    sampled = [(n, t.axes) for t in made.textures for n in t.names.values()]
     textures = [
         f"@group(0) @binding({number}) var {texture}: texture_{axes}d<f32>;"
         for number, (texture, axes) in enumerate(sampled, start=1)
