@@ -40,6 +40,11 @@ def load(spec: str | os.PathLike[str]) -> Reflectance:
     return first.named(spec.strip()) if others else first
 
 
+def is_file(spec: str) -> bool:
+    """Whether `load` takes the description for a file or a folder: names win."""
+    return os.path.exists(spec) and not _is_name(spec.strip())
+
+
 def names_profile(spec: str) -> bool:
     """Whether the description is one of a profile of subsurface scattering."""
     return spec.partition(":")[0].strip().lower() in profiles.names()

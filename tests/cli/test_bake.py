@@ -106,3 +106,13 @@ def test_convert_and_bake_from_python(tmp_path: Path) -> None:
     assert done.written.layout.shape == (8, 8, 8)
     assert done.file_bytes == (tmp_path / "x.safetensors").stat().st_size
     assert done.comparison.pair == (done.source, done.written)
+
+
+def test_a_folder_called_like_a_material_is_not_described_in_its_place(brdf: Command) -> None:
+    """`brdf bake chrome --as sphere-images -o chrome/` makes one; a name wins over it, ./chrome is the folder."""
+    assert brdf("bake", "chrome", "--as", "sphere-images", "--size", "16", "-o", "chrome/").code == 0
+    material, folder = (json.loads(brdf("info", name, "--json").out) for name in ("chrome", "./chrome"))
+    assert (material["kind"], folder["kind"]) == ("SGD", "SphereImages")
+    assert "file" not in material
+    assert material["fits"]
+    assert folder["file"]["format"] == "sphere images"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import inspect
 import math
-import os
 import textwrap
 from typing import TYPE_CHECKING, Any
 
@@ -74,8 +73,9 @@ def describe(m: Reflectance) -> dict[str, Any]:
 def _file(spec: str) -> dict[str, Any]:
     from ... import io
     from ...conversion import bytes_on_disk
+    from ...loading import is_file
 
-    if not os.path.exists(spec):
+    if not is_file(spec):
         return {}
     return {"file": {"path": spec, "format": io.format_of(spec).name, "bytes": bytes_on_disk(spec)}}
 
@@ -83,10 +83,11 @@ def _file(spec: str) -> dict[str, Any]:
 def _fits(spec: str) -> dict[str, Any]:
     """The published fits of a shipped material, with their errors where they are known."""
     from ... import materials
+    from ...loading import is_file
     from ...materials import catalogue
 
     name = spec.partition("@")[0]
-    if os.path.exists(spec) or name not in catalogue.names():
+    if is_file(spec) or name not in catalogue.names():
         return {}
     errors = materials.agreement(name)
     ordered = errors or catalogue.fits(name)
