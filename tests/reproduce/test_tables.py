@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import brdf
+from brdf.representations import alpha_search
 from brdf.reproduce import Report
 from brdf.reproduce.documents.tables import density, filters, measuring, options, pictures
 from brdf.reproduce.documents.tables.settings import SETTINGS, Settings, chosen
@@ -24,6 +25,8 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Report, Path]:
     folder = tmp_path_factory.mktemp("reproduce") / "tables"
     with pytest.MonkeyPatch.context() as patch:
         patch.delenv("BRDF_DATA", raising=False)
+        patch.setattr(alpha_search, "PAIRS", 512)
+        patch.setattr(measuring, "STEPS", 6)
         return brdf.reproduce("tables", folder, settings=TINY), folder
 
 
