@@ -184,3 +184,11 @@ def test_only_pictures_are_written_as_pictures(tmp_path):
         brdf.io.write(GGX(), tmp_path / "x.exr")
     with pytest.raises(ReflectanceError, match="is no set of sphere pictures"):
         brdf.io.write(GGX(), f"{tmp_path}/folder/")
+
+
+def test_a_torn_picture_is_one_line_and_the_library_says_nothing(folder, capfd):
+    picture = sorted(folder.glob("*.exr"))[-1]
+    picture.write_bytes(picture.read_bytes()[:-200])
+    with pytest.raises(CorruptFileError, match="is not a whole picture"):
+        brdf.load(folder)
+    assert capfd.readouterr() == ("", "")

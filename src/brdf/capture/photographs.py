@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..color import srgb_decode
 from ..errors import BrdfError, CorruptFileError, FileError, ParameterError, UnknownFormatError
+from ..io.native import messages_hidden
 from . import png
 
 Array = NDArray[np.floating[Any]]
@@ -99,7 +100,8 @@ def _read_tiff(path: Path) -> Any:
 def _read_exr(path: Path) -> Any:
     import OpenEXR
 
-    channels = OpenEXR.File(os.fspath(path)).channels()
+    with messages_hidden():
+        channels = OpenEXR.File(os.fspath(path)).channels()
     for name in ("RGB", "RGBA", "Y"):
         if name in channels:
             return np.asarray(channels[name].pixels, np.float32)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..color import srgb_decode, srgb_encode
 from ..container import replacing
 from ..errors import CorruptFileError
+from .native import messages_hidden
 
 LARGEST = 1 << 15
 """Pixels along a side of the largest picture that is read."""
@@ -75,12 +76,12 @@ def _read_png(path: Path) -> tuple[NDArray[np.float32], str | None]:
 def _read_exr(path: Path) -> tuple[NDArray[np.float32], str | None]:
     import OpenEXR
 
-    with OpenEXR.File(os.fspath(path), header_only=True) as file:
+    with messages_hidden(), OpenEXR.File(os.fspath(path), header_only=True) as file:
         header = file.header()
         note = header.get(NOTE)
         low, high = header["dataWindow"]
         _check_size(path, *(int(b) - int(a) + 1 for a, b in zip(low, high, strict=True)))
-    with OpenEXR.File(os.fspath(path)) as file:
+    with messages_hidden(), OpenEXR.File(os.fspath(path)) as file:
         channels = file.channels()
         name = next((name for name in ("RGB", "RGBA") if name in channels), None)
         if name is None:
