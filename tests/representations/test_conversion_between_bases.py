@@ -16,7 +16,7 @@ MATTE = "OrenNayar:albedo=.5,sigma=.5"
 GLOSSY = "Lambertian:albedo=.3/.2/.1 + GGX:alpha=.3,F0=.04"
 
 GRAZING = "marschner"
-"""Its first axis ends where either direction grazes: the last cell, five degrees wide, holds all of grazing light."""
+"""Its first axis ends where either direction grazes: the last cell holds all of grazing light at once."""
 
 
 class Conversion(NamedTuple):
