@@ -291,7 +291,7 @@ def test_an_output_whose_name_is_too_long_is_named(refused: Refused, tmp_path: P
         (["convert", "GGX", "x"], "the name has no extension"),
         (["show", "GGX", "-o", "x.gif9"], "x.gif9: figures are written as"),
         (["bake", "GGX", "--as", "slicestack"], "did you mean 'slice-stack'?"),
-        (["bake", "GGX", "--as", "table", "--budget", "16K"], "'budget' has no effect with table; it belongs to slice"),
+        (["bake", "GGX", "--as", "sphere-images", "--budget", "16K"], "'budget' has no effect with sphere-images"),
         (
             ["bake", "GGX", "--budget", "16K", "--angles", "metal"],
             "'angles' has no effect with slice-stack; it belongs",
