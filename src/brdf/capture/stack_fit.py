@@ -26,7 +26,7 @@ ENOUGH = 8
 def fit_stack(photographs: BallPhotographs, analytic: Reflectance, layout: Layout) -> Table:
     """A slice stack near `analytic` that fits all usable pixels, errors weighted as the eye sees them."""
     smoothness = _chosen(photographs, analytic, layout) if len(photographs) >= ENOUGH else SMOOTHNESS
-    return _fitted(photographs, analytic, layout, smoothness)
+    return _fitted(photographs, analytic, layout, smoothness).with_albedo()
 
 
 def _chosen(photographs: BallPhotographs, analytic: Reflectance, layout: Layout) -> float:
