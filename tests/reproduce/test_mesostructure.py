@@ -131,9 +131,9 @@ def test_a_photograph_left_out_is_predicted_by_the_others() -> None:
 
 
 def test_a_real_sample_is_predicted(data: Path) -> None:
-    """Ten-odd photographs of a relief in 43 x 64 pixels, one left out at a time."""
+    """Eight photographs of a relief in 43 x 64 pixels, one left out at a time."""
     real = brdf.capture.flat(data / prediction.REAL)
-    assert samples.decibels(prediction.left_out(real).values()) > 30
+    assert samples.decibels(prediction.left_out(real).values()) > 29
 
 
 def test_the_finest_teapot_is_the_shipped_one() -> None:

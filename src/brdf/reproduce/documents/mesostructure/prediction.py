@@ -23,7 +23,7 @@ from .settings import BETWEEN, Settings
 Floats = NDArray[np.floating[Any]]
 
 REAL = Path("flat") / "loewenkopf"
-"""Photographs of a real relief below the folder that BRDF_DATA names (Nasyrov's RTI example data, MIT licence)."""
+"""Photographs of a real relief below the folder that BRDF_DATA names (© 2020 KINoAI, MIT licence)."""
 
 
 @dataclass(frozen=True)
