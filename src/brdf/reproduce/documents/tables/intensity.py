@@ -20,13 +20,12 @@ def present(report: Report, found: Measured) -> Counter[Alphas]:
         "uniform": [i.uniform / i.bezier[i.best] for i in materials.values()],
         "identity": [i.identity / i.bezier[i.best] for i in materials.values()],
     }
-    order = np.argsort(ratios["uniform"])[::-1]
-    places = list(range(1, len(order) + 1))
+    places = list(range(1, len(materials) + 1))
     report.figure(
         "figure-3",
         "Figure 3. Total intensity of the tables, in parts of the Bézier table's, whose α are those of the largest; "
-        "materials by the uniform table's.",
-        curves({name: (places, [values[k] for k in order]) for name, values in ratios.items()},
+        "each curve with its materials in order.",
+        curves({name: (places, sorted(values, reverse=True)) for name, values in ratios.items()},
                "material", "total intensity", marker=""),
     )  # fmt: skip
     wins = Counter(i.best for i in materials.values())
