@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+from benchmarks.conftest import best_time, million_per_second, mitsuba_time
 
 import brdf
 from brdf.formula import engine
 from brdf.formula.vec import Vec
-from benchmarks.conftest import best_time, million_per_second, mitsuba_time
 
 CHUNK = 16_384
 
@@ -67,7 +67,7 @@ def test_merl_trilinear(benchmark, pairs):
     """A MERL table, angles included, against scipy's map_coordinates on three channels without them."""
     from scipy.ndimage import map_coordinates
 
-    from brdf.representations.merl import from_merl, to_merl
+    from brdf.representations.tables.merl import from_merl, to_merl
 
     m = from_merl(to_merl(brdf.load("gold-metallic-paint")).astype("f4"), "gold-metallic-paint", "SGD fit")
     wi, wo = (w[:2_000_000] for w in pairs)

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 import pytest
+from benchmarks.conftest import best_time, million_per_second, mitsuba_time
 
 import brdf
-from benchmarks.conftest import best_time, million_per_second, mitsuba_time
 
 COUNT = 4_000_000
 

@@ -9,8 +9,8 @@ import pytest
 from benchmarks.conftest import best_time
 
 import brdf
-from brdf.representations import shading_compression as compression
-from brdf.representations.shading_slices import Slices
+from brdf.representations.shading import compression as compression
+from brdf.representations.shading.slices import Slices
 
 ANGLES = np.linspace(87, 0, 10)
 PAIRS = 2_000_000

@@ -16,10 +16,10 @@ import brdf
 from brdf.metrics import ErrorsAgainst, importance_pairs
 from brdf.models import GGX, CharlieSheen, Lafortune, Lambertian, OrenNayar
 from brdf.reflectance import Reflectance
-from brdf.representations.bake import bake_points
-from brdf.representations.budget import PAPER_TABLES, search
-from brdf.representations.layouts import named_layout
-from brdf.representations.table import Table
+from brdf.representations.baking.bake import bake_points
+from brdf.representations.baking.budget import PAPER_TABLES, search
+from brdf.representations.tables.layouts import named_layout
+from brdf.representations.tables.table import Table
 
 ODD = {
     "Oren-Nayar": OrenNayar(albedo=0.6, sigma=0.5),

@@ -10,8 +10,8 @@ import brdf
 from brdf import ShadingMap, SliceStack, SpatiallyVarying, SphereImages, Table, TwoSided, models
 from brdf.models import GGX, EnergyCompensated, Lambertian, Microfacet
 from brdf.reflectance import Reflectance
-from brdf.representations.shading_compression import METHODS
-from brdf.representations.sphere_images_blends import BLENDS
+from brdf.representations.shading.compression import METHODS
+from brdf.representations.spheres.blends import BLENDS
 from brdf.representations.storage import STORAGES
 from mesostructures import ACQUIRED, photographs
 

@@ -12,9 +12,9 @@ from . import io, metrics
 from .errors import ParameterError, UnknownNameError
 from .loading import load
 from .reflectance import Reflectance
-from .representations.slice_stack import SliceStack
-from .representations.sphere_images import SphereImages
-from .representations.table import Table
+from .representations.baking.slice_stack import SliceStack
+from .representations.spheres.sphere_images import SphereImages
+from .representations.tables.table import Table
 
 REPRESENTATIONS: dict[str, Callable[..., Reflectance]] = {
     "slice-stack": SliceStack.bake,

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import brdf as package
-from brdf.representations.sphere_images import SphereImages
+from brdf.representations.spheres.sphere_images import SphereImages
 
 Command = Callable[..., Any]
 

@@ -11,7 +11,7 @@ import brdf
 from brdf.errors import CorruptFileError, FileError, ReflectanceError
 from brdf.io import sphere_pictures
 from brdf.models import GGX
-from brdf.representations.sphere_images import SphereImages
+from brdf.representations.spheres.sphere_images import SphereImages
 
 
 def made(storage="half", angles=(0, 22.5, 60, 100, 150)):

@@ -8,8 +8,8 @@ from brdf import plot
 from brdf.errors import ParameterError
 from brdf.metrics import Errors
 from brdf.models import Lambertian
-from brdf.representations.budget import Candidate, Search
-from brdf.representations.table import Table
+from brdf.representations.baking.budget import Candidate, Search
+from brdf.representations.tables.table import Table
 
 
 def search(size, errors):

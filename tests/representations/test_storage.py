@@ -11,7 +11,7 @@ from brdf.color import srgb_encode
 from brdf.errors import ParameterError, UnknownNameError
 from brdf.models import GGX, Lambertian
 from brdf.representations.storage import STORAGES, UNSIGNED, storage
-from brdf.representations.table import Table
+from brdf.representations.tables.table import Table
 
 
 def wide_range(count=20_000, seed=1):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import brdf
-from brdf.representations import alpha_search
+from brdf.representations.baking import alpha_search
 from brdf.reproduce import Report
 from brdf.reproduce.documents.tables import density, filters, measuring, options, pictures
 from brdf.reproduce.documents.tables.settings import SETTINGS, Settings, chosen

@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import CorruptFileError, FileError, ParameterError
-from .ball import Ball, ball_of_mask, ball_of_pictures
-from .ball_photographs import BallPhotographs
+from .ball.outline import Ball, ball_of_mask, ball_of_pictures
+from .ball.photographs import BallPhotographs
+from .ball.response_choice import CANDIDATES, chosen_response
 from .lights import read_directions, read_intensities
 from .photographs import EXTENSIONS, Photograph, Response, pictures_in, read_photograph, response_of
-from .response_choice import CANDIDATES, chosen_response
 
 Array = NDArray[np.floating[Any]]
 

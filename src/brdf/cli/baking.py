@@ -91,7 +91,7 @@ def convert(m: Reflectance, out: str, representation: str | None, options: Mappi
 
 def _require_place(m: Reflectance, out: str, representation: str | None) -> None:
     """Fails before the work. Raises FileError for what cannot be written, or not as a folder."""
-    from ..representations.sphere_images import SphereImages
+    from ..representations.spheres.sphere_images import SphereImages
 
     if not out.endswith(("/", os.sep)) and not os.path.isdir(out):
         output.require_writable(out)

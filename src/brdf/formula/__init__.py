@@ -1,7 +1,7 @@
 """The formula compiler: written once in plain Python, a reflectance runs, differentiates and prints everywhere."""
 
 from .backends import pi
-from .ops import (
+from .ops import (  # fmt: skip
     abs,
     acos,
     asin,
@@ -32,7 +32,7 @@ from .ops import (
     texture2d,
     texture3d,
     where,
-)  # fmt: skip
+)
 from .vec import Scalar, Vec
 
 __all__ = [

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ..container import replacing
 from ..errors import CorruptFileError, ReflectanceError
 from ..reflectance import Reflectance
-from ..representations.merl import BINS, MISSING, from_merl, to_merl
+from ..representations.tables.merl import BINS, MISSING, from_merl, to_merl
 from .registry import Format
 
 FACTORS = np.array([1.0, 1.15, 1.66]) / 1500.0

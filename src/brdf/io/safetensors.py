@@ -26,8 +26,8 @@ def read(path: Path) -> Reflectance:
         return Reflectance.restore(path)
     except CorruptFileError:
         # a kind is known once its module is imported, which is left until a file asks for it
-        for module in pkgutil.iter_modules(representations.__path__):
-            importlib.import_module(f"{representations.__name__}.{module.name}")
+        for module in pkgutil.walk_packages(representations.__path__, f"{representations.__name__}."):
+            importlib.import_module(module.name)
         return Reflectance.restore(path)
 
 

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ..errors import BrdfError, CorruptFileError, FileError, ReflectanceError
 from ..reflectance import Reflectance
-from ..representations.sphere_images import SphereImages
+from ..representations.spheres.sphere_images import SphereImages
 from . import sphere_pictures
 from .registry import Format
 

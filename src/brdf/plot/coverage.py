@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..capture.coverage import Coverage
+from ..capture.ball.coverage import Coverage
 from .page import degrees_axis, figure_of, titled
 
 if TYPE_CHECKING:

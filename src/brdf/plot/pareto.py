@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError
-from ..representations.budget import Candidate, Search, pareto
+from ..representations.baking.budget import Candidate, Search, pareto
 from .page import COLOURS, DASHES, LEGEND, figure_of, titled
 
 if TYPE_CHECKING:

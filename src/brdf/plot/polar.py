@@ -11,7 +11,7 @@ import numpy as np
 from ..color import luminance
 from ..geometry.directions import from_spherical
 from ..reflectance import Reflectance
-from .page import (
+from .page import (  # fmt: skip
     COLOURS,
     DASHES,
     LEGEND,
@@ -24,7 +24,7 @@ from .page import (
     names_of,
     several,
     titled,
-)  # fmt: skip
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure, FigureBase

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..color import luminance
 from ..errors import ReflectanceError, SceneError
 from ..geometry.directions import frame, normalized
-from ..representations.shading_map import ShadingMap
+from ..representations.shading.shading_map import ShadingMap
 from . import background as backgrounds
 from .cpu import assembled, checked_size
 from .image import Image

@@ -23,7 +23,7 @@ from ..color import rgb_weights
 from ..formula import Scalar, Vec, abs, atan2, engine, length, maximum, minimum, sqrt, texture3d
 from ..geometry.arguments import broadcast_directions
 from ..reflectance import Floats, Reflectance
-from .interpolation import reading
+from .tables.interpolation import reading
 
 GRID = (64, 46, 16)
 """Nodes over sqrt(theta_h), theta_d (2 degrees apart) and |cos phi_d|."""

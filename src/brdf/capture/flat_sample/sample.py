@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from ... import container
 from ...errors import CorruptFileError, ParameterError
 from ...reflectance import Reflectance
-from ...representations.shading_map import ShadingMap
+from ...representations.shading.shading_map import ShadingMap
 from ..folders import new_folder
 from .checks import Checks, checks_of, warnings_of
 from .sheet import save_sheet

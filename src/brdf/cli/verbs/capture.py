@@ -71,7 +71,7 @@ def sphere(
     """
     from ... import plot
     from ...capture import sphere as capture
-    from ...capture.captured import STACK
+    from ...capture.ball.captured import STACK
     from ...capture.folders import require_free
 
     target = out or Path(f"{folder.resolve().name}-captured")

@@ -35,8 +35,8 @@ def command(material: arguments.Material, json: arguments.AsJson = False) -> Non
 
 def describe(m: Reflectance) -> dict[str, Any]:
     """Everything there is to say of a reflectance, as plain data."""
-    from ...representations.sphere_images import SphereImages
-    from ...representations.table import Table
+    from ...representations.spheres.sphere_images import SphereImages
+    from ...representations.tables.table import Table
 
     doc = inspect.getdoc(type(m)) or ""
     described: dict[str, Any] = {

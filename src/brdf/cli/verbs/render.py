@@ -93,8 +93,8 @@ def command(
 def _stack(m: Reflectance) -> tuple[Reflectance | None, str]:
     """The material's slice stack and what to call it, or nothing where there can or need be none."""
     from ...conversion import bake
-    from ...representations.slice_stack import SliceStack
-    from ...representations.table import Table
+    from ...representations.baking.slice_stack import SliceStack
+    from ...representations.tables.table import Table
 
     if not m.isotropic or m.transmits or m.has_delta:
         kind = "transmits" if m.transmits else "mirrors" if m.has_delta else "is anisotropic"

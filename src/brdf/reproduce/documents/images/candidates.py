@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ....reflectance import Reflectance
-from ....representations.slice_stack import SliceStack
-from ....representations.sphere_images import SphereImages
-from ....representations.sphere_images_bake import disc
-from ....representations.table import Table
+from ....representations.baking.slice_stack import SliceStack
+from ....representations.spheres.bake import disc
+from ....representations.spheres.sphere_images import SphereImages
+from ....representations.tables.table import Table
 from .settings import COUNTS, METAL, PLASTIC
 
 STORAGE = "rgb9e5"

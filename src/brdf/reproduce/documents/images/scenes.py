@@ -16,8 +16,8 @@ from ....render import Directional, Image, Point, render
 from ....render.mesh import Mesh
 from ....render.mesh import load as load_mesh
 from ....render.progress import Progress
-from ....representations.slice_stack import SliceStack
-from ....representations.sphere_images import SphereImages
+from ....representations.baking.slice_stack import SliceStack
+from ....representations.spheres.sphere_images import SphereImages
 from ...report import Column, Panel, Report
 from .settings import FIT, METAL, PLASTIC, Settings
 

@@ -13,9 +13,9 @@ from ....color import luminance, srgb_encode
 from ....loading import load
 from ....metrics import psnr_of
 from ....reflectance import Reflectance
-from ....representations.sphere_images import SphereImages
-from ....representations.sphere_images_bake import sphere_pictures
-from ....representations.sphere_images_view import fixed_view, sphere_normals
+from ....representations.spheres.bake import sphere_pictures
+from ....representations.spheres.sphere_images import SphereImages
+from ....representations.spheres.view import fixed_view, sphere_normals
 from ...pictures import developed, error_picture
 from ...pictures import disc as coverage
 from ...report import Column, Panel, Report

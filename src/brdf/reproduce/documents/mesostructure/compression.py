@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from ....color import luminance
 from ....render.progress import Progress
-from ....representations.shading_compression import METHODS, MOST_BYTES, compressed, rms, rms_at
-from ....representations.shading_fits import powers_table, searched
-from ....representations.shading_slices import Slices
-from ....representations.shading_stack import Stack
+from ....representations.shading.compression import METHODS, MOST_BYTES, compressed, rms, rms_at
+from ....representations.shading.fits import powers_table, searched
+from ....representations.shading.slices import Slices
+from ....representations.shading.stack import Stack
 from ...charts import Curve, curves
 from ...report import Cell, Column, Report
 from .samples import Sample, geometric, slices_of

@@ -16,9 +16,9 @@ from ....metrics import psnr_of
 from ....reflectance import Reflectance
 from ....render import Directional, Image, render
 from ....representations.btf import BTF
-from ....representations.principal import principal_components
-from ....representations.shading_map import ShadingMap
-from ....representations.shading_planes import LEVELS, Planes
+from ....representations.shading.planes import LEVELS, Planes
+from ....representations.shading.principal import principal_components
+from ....representations.shading.shading_map import ShadingMap
 from ...charts import curves
 from ...pictures import error_picture
 from ...report import Cell, Column, Panel, Report

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ....capture import FlatSample, flat
 from ....render import render
-from ....representations.shading_compression import white
+from ....representations.shading.compression import white
 from ...charts import curves
 from ...pictures import developed
 from ...report import Cell, Column, Panel, Report

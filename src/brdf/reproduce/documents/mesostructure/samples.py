@@ -18,9 +18,9 @@ from ....models.lambertian import Lambertian
 from ....models.modified_phong import ModifiedPhong
 from ....render import Directional
 from ....render.progress import Progress
-from ....representations.shading_compression import white
-from ....representations.shading_map import ShadingMap
-from ....representations.shading_slices import Slices
+from ....representations.shading.compression import white
+from ....representations.shading.shading_map import ShadingMap
+from ....representations.shading.slices import Slices
 from .settings import BETWEEN, DIFFUSE, PHONG, SLICES, Settings, chosen
 
 Floats = NDArray[np.floating[Any]]

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from ....metrics import psnr_of
 from ....render import render
 from ....render.progress import Progress
-from ....representations.shading_compression import rms
+from ....representations.shading.compression import rms
 from ...pictures import developed
 from ...report import Panel, Report
 from .samples import Sample, named, slices_of, sun

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ....color import luminance
 from ....render import render
-from ....representations.shading_map import ShadingMap
+from ....representations.shading.shading_map import ShadingMap
 from ...pictures import developed
 from ...report import Cell, Column, Panel, Report
 from .samples import Sample, named, slices_of, sun

@@ -17,8 +17,8 @@ from ....geometry.directions import from_spherical
 from ....render import render
 from ....render.progress import Progress
 from ....representations.btf import BTF
-from ....representations.shading_lookup import TECHNIQUES as LOOKUPS
-from ....representations.shading_map import ShadingMap
+from ....representations.shading.lookup import TECHNIQUES as LOOKUPS
+from ....representations.shading.shading_map import ShadingMap
 from ...pictures import developed
 from ...report import Column, Panel, Report
 from .samples import Sample, named, relative, sun, under_phong

@@ -16,8 +16,8 @@ from ....capture import flat
 from ....color import srgb_encode
 from ....geometry.directions import from_spherical
 from ....render.progress import Progress
-from ....representations.shading_compression import METHODS
-from ....representations.shading_map import ShadingMap
+from ....representations.shading.compression import METHODS
+from ....representations.shading.shading_map import ShadingMap
 from ...report import Cell, Column, Report
 from .compression import WORDS
 from .samples import Sample, named, slices_of

@@ -6,10 +6,10 @@ from typing import NamedTuple
 
 from ....loading import load
 from ....metrics.importance import ErrorsAgainst, importance_pairs
-from ....representations.bake import bake_points
-from ....representations.layout import Layout
-from ....representations.layouts import BASES, named_layout, shape_of
-from ....representations.table import Table
+from ....representations.baking.bake import bake_points
+from ....representations.tables.layout import Layout
+from ....representations.tables.layouts import BASES, named_layout, shape_of
+from ....representations.tables.table import Table
 from ...report import Cell, Column, Report
 from .measuring import SEED
 from .settings import Settings

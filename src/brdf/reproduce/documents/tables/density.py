@@ -9,9 +9,9 @@ import numpy as np
 from ....geometry.warps import Bezier, Chord, Spline, Warp, identity, uniform
 from ....loading import load
 from ....metrics.importance import ErrorsAgainst, importance_pairs
-from ....representations.adaptive_layout import adapt
-from ....representations.encoding import Encoding, Log
-from ....representations.layouts import BASES, named_layout, shape_of
+from ....representations.baking.adaptive_layout import adapt
+from ....representations.tables.encoding import Encoding, Log
+from ....representations.tables.layouts import BASES, named_layout, shape_of
 from ...charts import curves
 from ...report import Column, Report
 from .settings import FIT, FIXED

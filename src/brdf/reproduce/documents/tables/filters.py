@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from ....color import luminance
 from ....loading import load
 from ....render import Camera, Point
-from ....representations.filters import FILTERS
-from ....representations.table import Table
+from ....representations.tables.filters import FILTERS
+from ....representations.tables.table import Table
 from ...pictures import error_picture
 from ...report import Column, Panel, Report
 from .pictures import View, compared, error_panel, panel

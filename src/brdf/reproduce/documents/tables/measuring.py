@@ -14,8 +14,8 @@ from ....loading import load
 from ....metrics.importance import Errors, ErrorsAgainst, importance_pairs
 from ....reflectance import Reflectance
 from ....render.progress import Progress
-from ....representations.alpha_search import STEPS, total_intensity, with_alpha
-from ....representations.layouts import named_layout
+from ....representations.baking.alpha_search import STEPS, total_intensity, with_alpha
+from ....representations.tables.layouts import named_layout
 from ....threads import map_threads
 from .options import Alphas, measured_alphas_of, tables
 from .settings import FIT, Settings, chosen

@@ -10,7 +10,7 @@ import numpy as np
 from ....loading import load
 from ....metrics.importance import Errors, ErrorsAgainst, importance_pairs
 from ....render.progress import Progress
-from ....representations.table import Table
+from ....representations.tables.table import Table
 from ....threads import map_threads
 from ...charts import curves
 from ...report import Cell, Column, Report

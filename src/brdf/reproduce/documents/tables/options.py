@@ -8,11 +8,11 @@ from functools import partial
 from typing import NamedTuple
 
 from ....reflectance import Reflectance
-from ....representations.alpha_search import measured_alphas, with_alpha
-from ....representations.bake import bake_points
-from ....representations.layout import Layout
-from ....representations.layouts import named_layout
-from ....representations.slice_stack import SliceStack
+from ....representations.baking.alpha_search import measured_alphas, with_alpha
+from ....representations.baking.bake import bake_points
+from ....representations.baking.slice_stack import SliceStack
+from ....representations.tables.layout import Layout
+from ....representations.tables.layouts import named_layout
 from .settings import FIXED
 
 Alphas = tuple[float, ...]

@@ -13,10 +13,10 @@ from ....formula.kernels import compile_ahead
 from ....loading import load
 from ....reflectance import Reflectance
 from ....render.progress import Progress
-from ....representations.alpha_search import with_alpha
-from ....representations.bake import bake_points
-from ....representations.layout import Layout
-from ....representations.layouts import named_layout, shape_of
+from ....representations.baking.alpha_search import with_alpha
+from ....representations.baking.bake import bake_points
+from ....representations.tables.layout import Layout
+from ....representations.tables.layouts import named_layout, shape_of
 from ....threads import cores
 from ...charts import curves
 from ...report import Column, Report

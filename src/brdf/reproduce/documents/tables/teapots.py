@@ -8,10 +8,10 @@ from typing import Any
 from ....loading import load
 from ....render import Directional, Point
 from ....render.progress import Progress
-from ....representations.alpha_search import with_alpha
-from ....representations.bake import bake_points
-from ....representations.layouts import named_layout, shape_of
-from ....representations.table import Table
+from ....representations.baking.alpha_search import with_alpha
+from ....representations.baking.bake import bake_points
+from ....representations.tables.layouts import named_layout, shape_of
+from ....representations.tables.table import Table
 from ...report import Column, Panel, Report
 from .measuring import choices_of
 from .options import BEZIER, HALF_LOG, INTENSE, MEASURED, SEARCHED_AT, UNIFORM

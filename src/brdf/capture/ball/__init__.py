@@ -1,0 +1,1 @@
+"""Photographs of a ball -> pictures of spheres and a slice stack."""

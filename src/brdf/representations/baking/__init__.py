@@ -1,0 +1,1 @@
+"""Reflectance -> table: at the nodes, by least squares, within a budget of bytes."""

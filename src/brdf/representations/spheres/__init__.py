@@ -1,0 +1,1 @@
+"""Pictures of spheres as a representation of isotropic reflectance."""

@@ -1,0 +1,1 @@
+"""Grids of nodes over angles: bases, warps, encodings, filters, and the one class that holds them."""
