@@ -11,17 +11,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-from brdf.capture.ball.outline.assembly import choose_angles
-from brdf.capture.ball.outline.captured import IMAGES, REPORT, STACK, Captured
-from brdf.capture.ball.outline.coverage import coverage_of
-from brdf.capture.ball.outline.hold_out import mean_psnr
 from PIL import Image
 from tests.capture.test_photographs import deep_png
 
 import brdf
 from brdf import capture, models
-from brdf.capture import reading
-from brdf.capture.ball.outline import Ball, analytic_fit, ball_of_mask, ball_of_pictures, stack_fit
+from brdf.capture.ball import analytic_fit, reading, stack_fit
+from brdf.capture.ball.assembly import choose_angles
+from brdf.capture.ball.captured import IMAGES, REPORT, STACK, Captured
+from brdf.capture.ball.coverage import coverage_of
+from brdf.capture.ball.hold_out import mean_psnr
+from brdf.capture.ball.outline import Ball, ball_of_mask, ball_of_pictures
 from brdf.capture.lights import read_directions
 from brdf.cli import run
 from brdf.color import luminance, srgb_encode

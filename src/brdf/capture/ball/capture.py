@@ -18,13 +18,13 @@ from ...representations.spheres.bake import disc
 from ...representations.spheres.pictures import checked_angles
 from ...representations.spheres.sphere_images import SphereImages
 from ...representations.tables.table import Table
-from ..reading import read_ball
 from .analytic_fit import fit_ggx_lambert
 from .assembly import as_published, assemble
 from .captured import Captured
 from .coverage import coverage_of
 from .hold_out import Methods, hold_out, left_out
 from .photographs import BallPhotographs, Samples, visible_weight
+from .reading import read_ball
 from .stack_fit import fit_stack
 
 DEFAULT_ALBEDO = 0.5

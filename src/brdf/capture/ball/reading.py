@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import CorruptFileError, FileError, ParameterError
-from .ball.outline import Ball, ball_of_mask, ball_of_pictures
-from .ball.photographs import BallPhotographs
-from .ball.response_choice import CANDIDATES, chosen_response
-from .lights import read_directions, read_intensities
-from .photographs import EXTENSIONS, Photograph, Response, pictures_in, read_photograph, response_of
+from ...errors import CorruptFileError, FileError, ParameterError
+from ..lights import read_directions, read_intensities
+from ..photographs import EXTENSIONS, Photograph, Response, pictures_in, read_photograph, response_of
+from .outline import Ball, ball_of_mask, ball_of_pictures
+from .photographs import BallPhotographs
+from .response_choice import CANDIDATES, chosen_response
 
 Array = NDArray[np.floating[Any]]
 
