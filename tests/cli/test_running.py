@@ -53,10 +53,21 @@ def test_the_command_as_a_process() -> None:
 
 def test_interrupting_ends_quietly_with_130(tmp_path: Path) -> None:
     command = [*BRDF, "render", "gold-metallic-paint", "--samples", "4096", "--size", "1600x1200", "-o", "x.png"]
-    process = subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(
+        command,
+        cwd=tmp_path,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        # a shell starts jobs in the background deaf to interrupts, and children inherit that
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
     time.sleep(3)
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=60)
+    try:
+        out, err = process.communicate(timeout=60)
+    finally:
+        process.kill()
     assert process.returncode == 130
     assert (out, err) == ("", "")
     assert os.listdir(tmp_path) == []
