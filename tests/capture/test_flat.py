@@ -435,6 +435,9 @@ def test_the_command_line_makes_the_folder(
     assert material.stack.bytes_per_texel == 3
     assert run(["capture", "simulate", "wax", "--size", "24", "--json", "-o", "wax"]) == 0
     assert json.loads(capsys.readouterr().out)["scale_known"] is True
+    assert run(["capture", "flat", str(folder), "--crop", "48", "--size", "96", "-o", "grown"]) == 0
+    assert load("grown/shading-map.safetensors").stack.shape == (96, 96)
+    assert FlatSample.load("grown").images.shape == (4, 48, 48, 3)
     marks = "2,2 44,3 45,44 1,45"
     assert run(["capture", "flat", str(folder), "--corners", marks, "-o", "cut"]) == 0
     assert FlatSample.load("cut").images.shape == (4, 44, 44, 3)  # no finer than the photographs
@@ -448,6 +451,7 @@ def test_the_command_line_makes_the_folder(
         (["flat", "nowhere"], "nowhere: no such folder"),
         (["flat", "photographs", "--brdf", "GGZ"], "unknown material 'GGZ'"),
         (["flat", "photographs", "--compress", "9"], "9"),
+        (["flat", "photographs", "--size", "5000"], "less than or equal to 4096"),
         (["simulate", "woool"], "unknown simulated material 'woool': did you mean 'wool'?"),
     ],
 )

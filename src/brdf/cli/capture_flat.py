@@ -45,7 +45,10 @@ def flat(
         str | None, typer.Option(metavar="MARKS", help='Four pixels "x,y x,y x,y x,y", clockwise from the top left.')
     ] = None,
     crop: Annotated[int, typer.Option(help="Pixels across the part of the photographs that is kept.")] = 1024,
-    size: Size = 512,
+    size: Annotated[
+        int,
+        typer.Option(min=1, max=4096, help="Pixels across the map; above --crop it is grown by synthesis, and tiles."),
+    ] = 512,
     albedo: Annotated[float | None, typer.Option(help="Albedo of the sample, sets the scale. [0.5]")] = None,
     brdf: Under = None,
     compress: Compress = None,
@@ -62,18 +65,21 @@ def flat(
     Examples:
       brdf capture flat photographs/
       brdf capture flat photographs/ --corners "212,80 1540,96 1522,1410 198,1390" --compress 6 --tileable
+      brdf capture flat photographs/ --size 2048
       brdf capture flat dome/ --angles dome/dirs.lp --white white.tif --brdf GGX:alpha=0.3
     """
     from ..capture import flat as capture
+    from ..capture.flat_sample.capture import SIZE
 
+    grown = size if size > crop else None
     target, reflectance = _flat_target(out, folder.resolve().name, overwrite), _under(brdf)
     marks = None if corners is None else _corners(corners)
     with output.working(f"reading {folder}") as tell:
         done = capture(
-            folder, angles=angles, dark=dark, white=white, response=response, corners=marks, crop=crop, size=size,
-            albedo=albedo, progress=tell,
+            folder, angles=angles, dark=dark, white=white, response=response, corners=marks, crop=crop,
+            size=size if grown is None else min(SIZE, crop), albedo=albedo, progress=tell,
         )  # fmt: skip
-        _save_flat(done, target, overwrite, reflectance, compress, tileable, tell)
+        _save_flat(done, target, overwrite, reflectance, compress, tileable, tell, grown)
     _say_flat(done, target, json)
 
 
@@ -121,11 +127,14 @@ def _under(brdf: str | None) -> Reflectance | None:
 
 def _save_flat(
     done: FlatSample, target: Path, overwrite: bool, brdf: Reflectance | None, compress: int | None, tileable: bool,
-    tell: Callable[[str], None],
+    tell: Callable[[str], None], grown: int | None = None,
 ) -> None:  # fmt: skip
     tell("making the shading map")
     made = done.shading_map(brdf)
-    if tileable:
+    if grown is not None:
+        tell(f"growing it to {grown} x {grown}")
+        made = made.synthesise(grown)
+    elif tileable:
         made = made.tileable()
     if compress is not None:
         made = made.compress(compress)
