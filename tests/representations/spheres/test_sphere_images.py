@@ -490,3 +490,16 @@ def test_a_damaged_file_is_refused(tmp_path, damage):
     brdf.container.save(tmp_path / "s.safetensors", header | damage, arrays)
     with pytest.raises(CorruptFileError, match="does not describe a reflectance"):
         brdf.load(tmp_path / "s.safetensors")
+
+
+def test_pictures_of_two_sizes_share_no_kernel() -> None:
+    matte = Lambertian(albedo=0.8)
+    coarse, fine = (SphereImages.bake(matte, size=size) for size in (16, 128))
+    assert coarse.structure != fine.structure
+    # float32 runs compiled, float64 of few pairs in NumPy
+    wi, wo = (w[:30_000] for w in brdf.metrics.sphere_pairs(64))
+    assert len(wi) == 30_000
+    coarse(wi, wo)
+    few = slice(None, None, 10)
+    plain = fine.f_cos(wi[few].astype(float), wo[few].astype(float))
+    np.testing.assert_allclose(fine.f_cos(wi, wo)[few], plain, atol=1e-4)

@@ -191,7 +191,7 @@ class SphereImages(Reflectance):
 
     @property
     def structure(self) -> tuple[Any, ...]:
-        return (SphereImages, self._angles, self._blend, self._storage, *self._options.items())
+        return (SphereImages, self._angles, self.size, self._blend, self._storage, *self._options.items())
 
     @property
     def values(self) -> Mapping[str, Any]:
