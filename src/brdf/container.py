@@ -9,6 +9,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import shutil
 import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -49,6 +50,34 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         temporary.replace(place)
     finally:
         temporary.unlink(missing_ok=True)
+
+
+@contextlib.contextmanager
+def replacing_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
+    """A temporary folder beside `path`, renamed to it when the block ends well, removed when it does not.
+
+    What was there goes only once the new one is in place; whether it may go is for the caller to say. Raises FileError
+    when the parent folder cannot be written.
+    """
+    target = Path(path)
+    try:
+        temporary = Path(tempfile.mkdtemp(prefix=".brdf-", dir=target.absolute().parent))
+    except OSError as error:
+        raise FileError(target, f"cannot be written ({error.strerror}); choose another place with -o.") from None
+    new, old = temporary / "new", temporary / "old"
+    new.mkdir()
+    try:
+        yield new
+        if target.exists():
+            target.rename(old)
+        try:
+            new.rename(target)
+        except OSError:
+            if old.exists():
+                old.rename(target)
+            raise
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
 
 
 def save(path: str | os.PathLike[str], header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> None:

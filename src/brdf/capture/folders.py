@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import contextlib
 import os
-import shutil
-import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
+from ..container import replacing_folder
 from ..errors import FileError
 
 
@@ -32,30 +31,6 @@ def new_folder(folder: str | os.PathLike[str], marker: str, overwrite: bool) -> 
 
     Raises FileError, see `require_free`.
     """
-    target = Path(folder)
-    require_free(target, marker, overwrite)
-    temporary = Path(tempfile.mkdtemp(prefix=".brdf-", dir=target.absolute().parent))
-    try:
+    require_free(Path(folder), marker, overwrite)
+    with replacing_folder(folder) as temporary:
         yield temporary
-        umask = os.umask(0)
-        os.umask(umask)
-        temporary.chmod(0o777 & ~umask)
-        _put(temporary, target)
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
-
-
-def _put(made: Path, target: Path) -> None:
-    """Rename `made` to `target`; what was there goes only once the new one is in place."""
-    if not target.exists():
-        made.rename(target)
-        return
-    aside = Path(tempfile.mkdtemp(prefix=".brdf-", dir=target.absolute().parent)) / "old"
-    target.rename(aside)
-    try:
-        made.rename(target)
-    except OSError:
-        aside.rename(target)
-        raise
-    finally:
-        shutil.rmtree(aside.parent, ignore_errors=True)

@@ -7,18 +7,16 @@ sheet (.exr or .png) shows the pictures row by row, and carries the same JSON as
 
 from __future__ import annotations
 
-import contextlib
 import json
 import math
-import shutil
-import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..container import replacing_folder
 from ..errors import BrdfError, CorruptFileError, FileError, ReflectanceError
 from ..reflectance import Reflectance
 from ..representations.spheres.sphere_images import SphereImages
@@ -117,31 +115,13 @@ def _pixels(images: SphereImages) -> NDArray[Any]:
 def _write_folder(images: SphereImages, path: Path) -> None:
     extension = ".png" if images.storage == "srgb8" else ".exr"
     files = [f"{i:02d}-light-{angle:g}{extension}" for i, angle in enumerate(images.angles)]
-    with _replacing_folder(path) as folder:
+    if path.exists() and not (path.is_dir() and ((path / FOLDER_FILE).is_file() or not any(path.iterdir()))):
+        raise FileError(path, "exists and holds no pictures of spheres; choose another place.")
+    with replacing_folder(path) as folder:
         for file, pixels in zip(files, _pixels(images), strict=True):
             sphere_pictures.write(folder / file, pixels)
         description = json.dumps(_description(images) | {"pictures": files}, indent=1)
         (folder / FOLDER_FILE).write_text(description + "\n", "utf-8")
-
-
-@contextlib.contextmanager
-def _replacing_folder(path: Path) -> Iterator[Path]:
-    """A temporary folder beside `path`, renamed to it when the block ends well; a former one of ours is replaced."""
-    if path.exists() and not (path.is_dir() and ((path / FOLDER_FILE).is_file() or not any(path.iterdir()))):
-        raise FileError(path, "exists and holds no pictures of spheres; choose another place.")
-    try:
-        temporary = Path(tempfile.mkdtemp(prefix=".brdf-", dir=path.absolute().parent))
-    except OSError as error:
-        raise FileError(path, f"cannot be written ({error.strerror}); choose another place.") from None
-    new, old = temporary / "new", temporary / "old"
-    new.mkdir()
-    try:
-        yield new
-        if path.exists():
-            path.rename(old)
-        new.rename(path)
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
 
 
 def _read_folder(path: Path) -> SphereImages:

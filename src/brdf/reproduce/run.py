@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
 import importlib
 import os
 import pkgutil
-import shutil
-import tempfile
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from ..container import replacing_folder
 from ..errors import FileError, UnknownNameError
 from . import documents
 from .report import RESULTS, Report
@@ -40,7 +37,8 @@ def reproduce(
     document = _document(name)
     folder = Path(out if out is not None else f"{name}-results")
     chosen = settings if settings is not None else document.SETTINGS["quick" if quick else "full"]
-    with _new_folder(folder, force) as temporary:
+    _require_free(folder, force)
+    with replacing_folder(folder) as temporary:
         report = Report(name, document.TITLE, document.SOURCE, chosen)
         document.run(report, chosen)
         report.write(temporary)
@@ -54,27 +52,11 @@ def _document(name: str) -> Any:
     return importlib.import_module(f"{documents.__name__}.{name}")
 
 
-@contextlib.contextmanager
-def _new_folder(folder: Path, force: bool) -> Iterator[Path]:
-    """A temporary folder beside `folder`, renamed to it when the block ends well, removed when it does not.
-
-    What exists is replaced on request, and only where an earlier run wrote it.
-    """
-    if os.path.lexists(folder):
-        if not force:
-            raise FileError(folder, "exists; choose another folder with -o, or replace it with --force.")
-        if not (folder / RESULTS).is_file():
-            raise FileError(folder, f"was not written by this command (it has no {RESULTS}); choose another folder.")
-    try:
-        temporary = Path(tempfile.mkdtemp(prefix=".brdf-", dir=folder.parent))
-    except OSError as error:
-        raise FileError(folder, f"cannot be written ({error.strerror}); choose another place with -o.") from None
-    try:
-        made = temporary / "made"
-        made.mkdir()
-        yield made
-        if folder.exists():
-            folder.rename(temporary / "replaced")
-        made.rename(folder)
-    finally:
-        shutil.rmtree(temporary, ignore_errors=True)
+def _require_free(folder: Path, force: bool) -> None:
+    """Raises FileError where something stands: it is replaced on request, and only where an earlier run wrote it."""
+    if not os.path.lexists(folder):
+        return
+    if not force:
+        raise FileError(folder, "exists; choose another folder with -o, or replace it with --force.")
+    if not (folder / RESULTS).is_file():
+        raise FileError(folder, f"was not written by this command (it has no {RESULTS}); choose another folder.")
