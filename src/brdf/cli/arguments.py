@@ -21,6 +21,10 @@ Material = Annotated[
         metavar="MATERIAL", help="Name, NAME@FIT, file, or MODEL:alpha=0.2,F0=1/.78/.34 (lobes with +, factors with *)."
     ),
 ]
+CaptureFolder = Annotated[
+    Path | None, typer.Option("-o", "--output", help="Folder to make. [NAME-captured, in the current folder]")
+]
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace an earlier result.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
 

@@ -25,10 +25,8 @@ Tileable = Annotated[bool, typer.Option("--tileable", help="Make the map continu
 
 def flat(
     folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="Photographs of a flat sample, and angles.txt.")],
-    out: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Folder to make. [NAME-captured, in the current folder]")
-    ] = None,
-    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace an earlier result.")] = False,
+    out: arguments.CaptureFolder = None,
+    overwrite: arguments.Overwrite = False,
     angles: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="Lines [FILE] ANGLE [SECONDS], or an .lp file. [angles.txt]"),
@@ -85,10 +83,8 @@ def flat(
 
 def simulate(
     material: Annotated[str, typer.Argument(metavar="NAME", help="jeans, suede, leather, stone …")],
-    out: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Folder to make. [NAME-captured, in the current folder]")
-    ] = None,
-    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace an earlier result.")] = False,
+    out: arguments.CaptureFolder = None,
+    overwrite: arguments.Overwrite = False,
     size: Size = 512,
     seed: Annotated[int, typer.Option(help="The same seed gives the same sample.")] = 0,
     brdf: Under = None,

@@ -27,10 +27,8 @@ def _group() -> None:
 @group.command("sphere")
 def sphere(
     folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="Photographs of a ball, and its lights.")],
-    out: Annotated[
-        Path | None, typer.Option("-o", "--output", help="Folder to make. [NAME-captured, in the current folder]")
-    ] = None,
-    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace an earlier result.")] = False,
+    out: arguments.CaptureFolder = None,
+    overwrite: arguments.Overwrite = False,
     lights: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Directions, a line x y z a photograph. [light_directions.txt]")
     ] = None,
