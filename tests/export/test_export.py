@@ -13,11 +13,11 @@ from tests.representations.synthetic_rgl import tensors
 import brdf
 from brdf import io
 from brdf.errors import FileError, FormulaError, ParameterError, ReflectanceError, UnknownFormatError
-from brdf.export.texels import images
 from brdf.formula import Vec, texture2d
 from brdf.models import GGX, SGD, Mirror
 from brdf.parameters import Parameterised, texture
 from brdf.representations.adaptive import Adaptive
+from brdf.shaders.texels import images
 from cards import HEADERS, GLCard, WebCard, texels
 from helpers import random_directions
 

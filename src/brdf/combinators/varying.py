@@ -15,7 +15,7 @@ from ..formula.textures import lookup
 from ..formula.vec import Vec
 from ..geometry.arguments import MIDDLE
 from ..geometry.sampling import CosineSampler, MixtureSampler, Sampler
-from ..parameters import Parameter, Parameterised
+from ..parameters import Parameterised, declaration
 from ..reflectance import Reflectance
 from .sums import Scaled, Sum
 
@@ -145,15 +145,6 @@ def with_values(m: Reflectance, values: Mapping[str, Any]) -> Reflectance:
     plain = {k: float(np.squeeze(v)) if np.size(v) == 1 else v for k, v in values.items()}
     changed: Reflectance = m.replaced(**plain)
     return changed
-
-
-def declaration(m: Any, name: str) -> Parameter | None:
-    """How the parameter of that full name is declared; None for numbers that are not declared, such as a table's."""
-    if isinstance(m, Parameterised) and name in m.declarations():
-        return m.declarations()[name]
-    inner = (declaration(child, name.removeprefix(f"{key}_")) for key, child in m.children.items()
-             if name.startswith(f"{key}_"))  # fmt: skip
-    return next((found for found in inner if found), None)
 
 
 def _validated(base: Reflectance, name: str, image: ArrayLike) -> NDArray[np.float32]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import textwrap
-import unicodedata
 
 from ..reflectance import Reflectance
 
@@ -76,9 +75,3 @@ def header(m: Reflectance, function: str, language: str) -> str:
     example = _EXAMPLES[language].replace("FUNCTION", function).replace("UV", uv).replace("COSINE", cosine)
     lines = [*text.splitlines(), "", *example.splitlines()]
     return "\n".join(f"// {line}".rstrip() for line in lines) + "\n\n"
-
-
-def in_ascii(text: str) -> bytes:
-    """The text for compilers that refuse other characters, in comments, too: without accents, what is left as `?`."""
-    plain = unicodedata.normalize("NFKD", text.replace("\u2013", "-"))
-    return "".join(c for c in plain if not unicodedata.combining(c)).encode("ascii", "replace")

@@ -27,6 +27,7 @@ from .declared import (
     width,
 )
 from .parameterised import Parameterised
+from .search import declaration
 
 __all__ = [
     "RGB",
@@ -39,6 +40,7 @@ __all__ = [
     "Value",
     "albedo",
     "choice",
+    "declaration",
     "number",
     "rgb",
     "texture",
