@@ -1,0 +1,62 @@
+"""Whole shaders around a material's function: one text for Python, desktop, browser and phone.
+
+The parts are the `.glsl` files of `scene/`. A host puts `#version 300 es` or `#version 330 core` before what it gets
+from here.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from importlib import resources
+
+from .shader import Shader
+
+MATERIAL = "// MATERIAL\n"
+"""Where a fragment shader without material wants it: `material(shader)`."""
+
+SHAPES = ("mesh", "sphere")
+"""What there are stages for: triangles, and the exact unit sphere."""
+
+
+@cache
+def part(name: str) -> str:
+    """One file of `scene/`, without its extension."""
+    return resources.files(__package__).joinpath("scene", f"{name}.glsl").read_text("utf-8")
+
+
+def _joined(*names: str) -> str:
+    return "\n".join(MATERIAL if name == "material" else part(name) for name in names)
+
+
+def vertex(shape: str) -> str:
+    """The vertex shader of a shape: `mesh` takes 3 vertices a face, `sphere` and `screen` 3 in all."""
+    return _joined("precision", "camera", "texel", "mesh.vert") if shape == "mesh" else _joined("sphere.vert")
+
+
+def fragment(shape: str) -> str:
+    """The fragment shader that shades a shape; `MATERIAL` stands for the material."""
+    surface = [f"surface.{shape}", f"shadow.{shape}"]
+    return _joined("precision", "material", "camera", "texel", "point", *surface, "lights", "environment", "main.frag")
+
+
+def evaluation() -> str:
+    """The fragment shader that evaluates the material at given directions."""
+    return _joined("precision", "material", "evaluate.frag")
+
+
+def material(shader: Shader) -> str:
+    """The material's text, and what the stages call it by."""
+    uv = ", uv" if shader.varies else ""
+    transmits = shader.description["transmits"]
+    return "\n".join([
+        shader.text,
+        f"#define MATERIAL(wi, wo, uv) {shader.function}(wi, wo{uv})",
+        f"#define COSINE(z) {'abs(z)' if transmits else 'max(z, 0.0)'}",
+        f"#define TRANSMITS {str(transmits).lower()}",
+        "",
+    ])  # fmt: skip
+
+
+def shading(shader: Shader, shape: str) -> tuple[str, str]:
+    """Vertex and fragment shader that draw a shape of the material."""
+    return vertex(shape), fragment(shape).replace(MATERIAL, material(shader))
