@@ -1,0 +1,1 @@
+"""The page that shows materials in a browser: exported to one file, served to this machine, or in a notebook."""
