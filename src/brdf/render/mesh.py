@@ -49,6 +49,11 @@ class Mesh:
         """The diagonal of that box."""
         return float(np.linalg.norm(self.bounds[1] - self.bounds[0]))
 
+    @property
+    def nudge(self) -> np.float32:
+        """By how much rays start off the surface: well above the rounding of float32 positions."""
+        return np.float32(1e-4 * self.size + 4e-7 * float(np.abs(self.bounds).max()))
+
 
 def load(mesh: str | os.PathLike[str] | Mesh) -> Mesh:
     """A mesh by name ("teapot", "sphere", "plane"), from a file (.ply, .obj, .glb, .stl …), or as it is.
@@ -107,11 +112,14 @@ def _made(name: str, vertices: Any, faces: Any, normals: Any, uvs: Any) -> Mesh:
     """Drop unused vertices, complete the normals, convert to the types the kernels take."""
     used, flat = np.unique(faces, return_inverse=True)
     vertices, faces = vertices[used], flat.reshape(-1, 3)
-    smooth = corner_normals(vertices, faces)
-    if normals is not None:
+    if normals is None:
+        smooth = corner_normals(vertices, faces)
+    else:
         length = np.linalg.norm(normals, axis=-1, keepdims=True)
         usable = np.isfinite(length) & (length > 1e-6)
-        smooth = np.where(usable, normals / np.where(usable, length, 1), smooth)
+        smooth = normals / np.where(usable, length, 1)
+        if not usable.all():
+            smooth = np.where(usable, smooth, corner_normals(vertices, faces))
     if uvs is not None and not np.isfinite(uvs).all():
         uvs = None
     return Mesh(
