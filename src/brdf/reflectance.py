@@ -21,6 +21,7 @@ from .formula.backends import backend_of, is_foreign
 from .formula.vec import Vec
 from .geometry.arguments import MIDDLE, as_directions, broadcast_directions, broadcast_places, flat_places
 from .geometry.sampling import Sampler, TabulatedSampler, event_probability
+from .shaders.embedded import PREFIX, embedded
 
 Floats = NDArray[np.floating[Any]]
 
@@ -345,14 +346,19 @@ class Reflectance(ABC):
         return made.named(header.get("name", ""), header.get("source", ""))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write everything to one safetensors file, which `brdf.load` reads."""
-        container.save(path, *self.state())
+        """Write everything to one safetensors file, which `brdf.load` reads, and pages without Python can draw."""
+        header, arrays = self.state()
+        shader = embedded(self, arrays)
+        if shader is not None:
+            header, arrays = header | {"shader": shader[0]}, arrays | shader[1]
+        container.save(path, header, arrays)
 
     @staticmethod
     def restore(path: str | os.PathLike[str]) -> Reflectance:
         """Read a file written by `save`. Raises CorruptFileError."""
         header, arrays = container.load(path)
+        own = {name: array for name, array in arrays.items() if not name.startswith(PREFIX)}
         try:
-            return Reflectance.from_state(header, arrays)
+            return Reflectance.from_state(header, own)
         except (KeyError, TypeError, ValueError, AttributeError, RecursionError) as error:
             raise CorruptFileError(path, f"its header does not describe a reflectance ({error}).") from None

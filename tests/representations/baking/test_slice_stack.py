@@ -120,7 +120,7 @@ def test_file_is_as_small_and_restores_to_the_bit(tmp_path):
     stack = SliceStack.bake(plastic(0.2))
     path = tmp_path / "stack.safetensors"
     stack.save(path)
-    assert path.stat().st_size < 17.5 * 1024
+    assert path.stat().st_size < (17.5 + 3) * 1024  # of which 3 for its shader
     back = Reflectance.restore(path)
     for dtype in (np.float32, np.float64):
         np.testing.assert_array_equal(
