@@ -1,0 +1,93 @@
+"""The viewer's ES modules as one script: no tools, for their syntax is kept plain.
+
+A module imports by `import { a, b as c } from "./x.js";` and exports by `export function|class|const|let`, or
+`export default`, each at the start of a line. Each becomes a function of its own, so that names need not be unique.
+"""
+
+from __future__ import annotations
+
+import posixpath
+import re
+from collections.abc import Mapping
+from functools import cache
+from importlib import resources
+
+IMPORT = re.compile(r'^import \{([^}]*)\} from "([^"]+)";\n', re.M)
+EXPORT = re.compile(r"^export (?:async )?(?:function\*?|class|const|let) (\w+)", re.M)
+UNKNOWN = re.compile(r"^\s*(?:import\b(?! *\()|export\b).*", re.M)
+
+COMMENTS = re.compile(r"^[ \t]*//[^\n]*\n|^[ \t]*/\*\*.*?\*/[ \t]*\n|/\*\* (?:[^*\n]|\*(?!/))*\*/ ?", re.M | re.S)
+"""Whole lines of comment, and the types that stand within a line."""
+
+DEFAULT = "entry_default"
+
+
+@cache
+def sources() -> Mapping[str, str]:
+    """All files of `web/` by their path in it."""
+    folder = resources.files(__package__).joinpath("web")
+    found: dict[str, str] = {}
+
+    def collect(place: resources.abc.Traversable, prefix: str) -> None:
+        for item in place.iterdir():
+            if item.is_dir():
+                collect(item, f"{prefix}{item.name}/")
+            elif item.name.endswith((".js", ".css", ".html")):
+                found[f"{prefix}{item.name}"] = item.read_text("utf-8")
+
+    collect(folder, "")
+    return found
+
+
+def linked(entry: str, modules: Mapping[str, str] | None = None) -> str:
+    """`entry` and what it imports as one script; what it exports by default, the script does. `modules`: texts by
+    path, by default the viewer's own.
+
+    Raises ValueError for a module that is missing, for a circle of imports, for syntax beside the plain one.
+    """
+    texts = sources() if modules is None else modules
+    order: list[str] = []
+    _visit(entry, texts, order, [])
+    numbers = {path: number for number, path in enumerate(order)}
+    parts = [_wrapped(path, texts[path], numbers) for path in order]
+    ending = f"export default {_module(numbers[entry])}.{DEFAULT};\n" if "export default" in texts[entry] else ""
+    return '"use strict";\n' + "".join(parts) + ending
+
+
+def _visit(path: str, texts: Mapping[str, str], order: list[str], open_: list[str]) -> None:
+    if path in open_:
+        raise ValueError(f"modules import each other in a circle: {' -> '.join([*open_, path])}")
+    if path in order:
+        return
+    if path not in texts:
+        raise ValueError(f"{open_[-1] if open_ else 'the page'} imports {path}, which does not exist")
+    for _, target in IMPORT.findall(texts[path]):
+        _visit(_resolved(path, target), texts, order, [*open_, path])
+    order.append(path)
+
+
+def _resolved(path: str, target: str) -> str:
+    return posixpath.normpath(posixpath.join(posixpath.dirname(path), target))
+
+
+def _module(number: int) -> str:
+    return f"module_{number}"
+
+
+def _wrapped(path: str, text: str, numbers: Mapping[str, int]) -> str:
+    """A module as a function that gives what it exports."""
+
+    def bound(match: re.Match[str]) -> str:
+        names = ", ".join(re.sub(r"\s+as\s+", ": ", name.strip()) for name in match[1].split(",") if name.strip())
+        return f"const {{ {names} }} = {_module(numbers[_resolved(path, match[2])])};\n"
+
+    body = COMMENTS.sub("", IMPORT.sub(bound, text))
+    exported = EXPORT.findall(body)
+    body = re.sub(r"^export (?=(?:async )?(?:function|class|const|let) )", "", body, flags=re.M)
+    if re.search(r"^export default ", body, re.M):
+        body = re.sub(r"^export default ", f"const {DEFAULT} = ", body, count=1, flags=re.M)
+        exported.append(DEFAULT)
+    rest = UNKNOWN.search(body)
+    if rest:
+        raise ValueError(f"{path}: cannot be linked: {rest[0].strip()}")
+    return f"const {_module(numbers[path])} = (() => {{\n{body}return {{ {', '.join(exported)} }};\n}})();\n"

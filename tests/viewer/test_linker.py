@@ -1,0 +1,88 @@
+"""Modules joined to one script do what they do apart; what cannot be joined is refused."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from brdf.viewer.linker import linked
+
+MODULES = {
+    "main.js": """\
+import { twice, Counter as Other } from "./parts/twice.js";
+import {
+    LIMIT,
+    start,
+} from "./parts/limit.js";
+
+// A comment that goes, whose text is no import { a } from "./b.js";
+const helper = 1;
+
+/** @type {(text: string) => void} */
+const say = (text) => console.log(/** @type {any} */ (text));
+
+say(`${twice(LIMIT)} ${new Other().next()} ${helper} "// kept" ${"/* kept */"}`);
+start().then((done) => say(done));
+export default { helper };
+""",
+    "parts/twice.js": """\
+import { LIMIT } from "./limit.js";
+const helper = 2;
+export function twice(x) { return x * helper; }
+export class Counter { next() { return LIMIT + helper; } }
+""",
+    "parts/limit.js": "export const LIMIT = 20;\nexport async function start() { return 'started'; }\n",
+}
+
+
+def node() -> str:
+    found = shutil.which("node")
+    if found is None:
+        pytest.skip("no Node.js; the extra brdf[test] brings it")
+    return found
+
+
+def run(script: Path) -> str:
+    return subprocess.run([node(), str(script)], capture_output=True, text=True, check=True, timeout=60).stdout
+
+
+def test_the_script_does_what_the_modules_do(tmp_path: Path) -> None:
+    for name, text in MODULES.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text, "utf-8")
+    (tmp_path / "package.json").write_text('{"type": "module"}', "utf-8")
+    (tmp_path / "joined.mjs").write_text(linked("main.js", MODULES), "utf-8")
+    apart = run(tmp_path / "main.js")
+    assert apart == '40 22 1 "// kept" /* kept */\nstarted\n'
+    assert run(tmp_path / "joined.mjs") == apart
+    (tmp_path / "import.mjs").write_text('import joined from "./joined.mjs";\nconsole.log(joined.helper);\n', "utf-8")
+    assert run(tmp_path / "import.mjs").splitlines()[1] == "1"
+
+
+def test_comments_are_left_out() -> None:
+    script = linked("main.js", MODULES)
+    assert "A comment" not in script
+    assert "@type" not in script
+    assert "import" not in script
+
+
+@pytest.mark.parametrize(
+    ("modules", "message"),
+    [
+        ({"main.js": 'import { a } from "./a.js";\n'}, "main.js imports a.js, which does not exist"),
+        ({}, "the page imports main.js, which does not exist"),
+        (
+            {"main.js": 'import { a } from "./a.js";\n', "a.js": 'import { b } from "./main.js";\n'},
+            "in a circle: main.js -> a.js -> main.js",
+        ),
+        ({"main.js": 'import a from "./a.js";\n'}, 'main.js: cannot be linked: import a from "./a.js";'),
+        ({"main.js": "export { a };\n"}, "main.js: cannot be linked: export { a };"),
+    ],
+)
+def test_what_cannot_be_linked(modules: dict[str, str], message: str) -> None:
+    with pytest.raises(ValueError, match=re.escape(message)):
+        linked("main.js", modules)
