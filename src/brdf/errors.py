@@ -65,6 +65,10 @@ class SceneError(BrdfError, ValueError):
     """A scene that cannot be rendered (empty mesh, size of zero, no light…)."""
 
 
+class DriverError(BrdfError, RuntimeError):
+    """No graphics driver, or one that cannot do what is needed; the message says what to install."""
+
+
 class MissingExtraError(BrdfError, ImportError):
     """An optional dependency is not installed; the message gives the command that installs it."""
 

@@ -141,6 +141,12 @@ def test_normals_of_the_file_are_kept(tmp_path):
     np.testing.assert_allclose(load(path).normals, np.broadcast_to((0.6, 0, 0.8), (1, 3, 3)), atol=1e-6)
 
 
+def test_a_face_that_stands_twice_counts_once(tmp_path):
+    path = tmp_path / "twice.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 2 4 3\nf 2 1 3\nf 3 1 2\n")
+    np.testing.assert_array_equal(load(path).faces, [(0, 1, 2), (1, 3, 2)])
+
+
 def test_bad_meshes_say_what_is_wrong(tmp_path):
     import trimesh
 

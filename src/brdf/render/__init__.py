@@ -2,12 +2,12 @@
 
 from ..callable_module import make_callable
 from .caption import captioned
-from .cpu import render, render_halves
 from .environment import Environment
 from .image import Image
 from .lights import Directional, Point
 from .mesh import Mesh
 from .per_vertex import render_per_vertex
+from .pictures import render, render_halves
 from .scene import Camera
 
 __all__ = [

@@ -6,6 +6,7 @@ from inside, columns run to the right, so the column at 3/4 of the width is +x a
 
 from __future__ import annotations
 
+import copy
 import os
 from pathlib import Path
 from typing import Any
@@ -54,21 +55,27 @@ class Environment:
         self.pixels = np.ascontiguousarray(pixels * np.float32(scale))
         self.name = name
         turn = np.radians(rotation)
-        self._cos_sin = (np.float32(np.cos(turn)), np.float32(np.sin(turn)))
-        self._density, self._rows, self._columns = _distribution(self.pixels)
+        self.turn = (np.float32(np.cos(turn)), np.float32(np.sin(turn)))
+        self.density, self._rows, self._columns = _distribution(self.pixels)
 
     def radiance(self, directions: Floats) -> tuple[Floats, Floats]:
         """World directions (N, 3) -> radiance (N, 3) and the density of `sample` there (N,) [1/sr]."""
         count = len(directions)
         radiance, density = np.empty((count, 3), np.float32), np.empty(count, np.float32)
-        in_parallel(kernels.look_up, count, directions, self.pixels, self._density, *self._cos_sin, radiance, density)
+        in_parallel(kernels.look_up, count, directions, self.pixels, self.density, *self.turn, radiance, density)
         return radiance, density
 
     def sample(self, u: Floats) -> tuple[Floats, Floats, Floats]:
         """Numbers (N, 2) in [0, 1) -> world directions (N, 3), radiance (N, 3), density (N,) [1/sr]."""
         directions = np.empty((len(u), 3), np.float32)
-        in_parallel(kernels.sample, len(u), u, self._rows, self._columns, *self._cos_sin, directions)
+        in_parallel(kernels.sample, len(u), u, self._rows, self._columns, *self.turn, directions)
         return directions, *self.radiance(directions)
+
+    def unturned(self) -> Environment:
+        """The same light with a rotation of 0."""
+        same = copy.copy(self)
+        same.turn = (np.float32(1), np.float32(0))
+        return same
 
     def blurred(self, height: int = 32) -> Environment:
         """The same light, averaged down to about `height` rows and smoothed: what stands out of focus behind."""
@@ -79,7 +86,7 @@ class Environment:
             small = (np.roll(small, 1, 1) + 2 * small + np.roll(small, -1, 1)) / 4
             padded = np.concatenate([small[:1], small, small[-1:]])
             small = (padded[:-2] + 2 * padded[1:-1] + padded[2:]) / 4
-        cos, sin = self._cos_sin
+        cos, sin = self.turn
         return Environment(small, rotation=float(np.degrees(np.arctan2(sin, cos))), name=self.name)
 
     def irradiance(self, normal: ArrayLike) -> NDArray[np.float64]:
@@ -87,7 +94,7 @@ class Environment:
         height, width = self.pixels.shape[:2]
         theta = (np.arange(height) + 0.5) * np.pi / height
         phi = ((np.arange(width) + 0.5) / width - 0.5) * 2 * np.pi
-        cos, sin = (float(value) for value in self._cos_sin)
+        cos, sin = (float(value) for value in self.turn)
         x, z = np.sin(theta)[:, None] * np.sin(phi), -np.sin(theta)[:, None] * np.cos(phi)
         directions = np.stack(
             [cos * x + sin * z, np.broadcast_to(np.cos(theta)[:, None], x.shape), cos * z - sin * x], -1

@@ -93,7 +93,7 @@ def _read(path: Path) -> Mesh:
     if faces.min() < 0 or faces.max() >= len(vertices) or not np.isfinite(vertices[faces]).all():
         raise CorruptFileError(path, "its faces name vertices that do not exist or are not finite.")
     corners = vertices[faces]
-    faces = faces[_face_vectors(corners).any(-1)]
+    faces = _once(faces[_face_vectors(corners).any(-1)])
     if len(faces) == 0:
         raise SceneError(f"{path}: all its faces have an area of zero.")
     normals = None
@@ -102,6 +102,12 @@ def _read(path: Path) -> Mesh:
     uv = getattr(found.visual, "uv", None)
     uvs = None if uv is None or len(uv) != len(vertices) else np.asarray(uv)[faces]
     return _made(path.name, vertices, faces, normals, uvs)
+
+
+def _once(faces: Any) -> Any:
+    """Of faces (F, 3) with the same corners the first alone: which of them is seen would be left to chance."""
+    _, first = np.unique(np.sort(faces, 1), axis=0, return_index=True)
+    return faces[np.sort(first)]
 
 
 def _first_line(error: BaseException) -> str:

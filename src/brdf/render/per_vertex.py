@@ -14,12 +14,12 @@ from ..errors import ReflectanceError, SceneError
 from ..geometry.directions import frame, normalized
 from ..representations.shading.shading_map import ShadingMap
 from . import background as backgrounds
-from .cpu import assembled, checked_size
 from .image import Image
 from .lights import Light
 from .mesh import Mesh
 from .scene import Camera, Scene
 from .shading import pixel_means
+from .task import assembled, checked_size
 from .visibility import Triangles
 
 Floats = NDArray[np.float32]

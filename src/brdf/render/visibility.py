@@ -87,6 +87,11 @@ class UnitSphere:
         return below
 
 
+def nudge(mesh: Mesh) -> float:
+    """By how much rays start off the surface: well above the rounding of float32 positions."""
+    return 1e-4 * mesh.size + 4e-7 * float(np.abs(mesh.bounds).max())
+
+
 class Triangles:
     """A mesh in an embree scene. Raises SceneError where embree is not installed."""
 
@@ -101,9 +106,7 @@ class Triangles:
             ) from None
         self._corners = np.ascontiguousarray(mesh.vertices[mesh.faces])
         self._mesh = mesh
-        # Rays start off the surface by this much, well above the rounding of float32 positions.
-        largest = float(np.abs(mesh.bounds).max())
-        self._nudge = np.float32(1e-4 * mesh.size + 4e-7 * largest)
+        self._nudge = np.float32(nudge(mesh))
         self._scene = EmbreeScene()
         TriangleMesh(self._scene, mesh.vertices, mesh.faces)
         above = mesh.bounds[1] + 1

@@ -44,6 +44,16 @@ def evaluation() -> str:
     return _joined("precision", "material", "evaluate.frag")
 
 
+def depth() -> str:
+    """The fragment shader that leaves nothing but depth."""
+    return _joined("precision", "depth.frag")
+
+
+def sum_of_samples() -> str:
+    """The fragment shader that hands on the texels of `drawn`, to be added to those drawn before."""
+    return _joined("precision", "sum.frag")
+
+
 def material(shader: Shader) -> str:
     """The material's text, and what the stages call it by."""
     uv = ", uv" if shader.varies else ""

@@ -3,6 +3,7 @@
 
 uniform int environment_samples;           // a pass and kind; 0: there is no environment
 uniform int environment_pass;              // 0, 1, 2, ...: passes draw other directions
+uniform int environment_seed;
 uniform sampler2D environment_map;         // radiance, and density of the brightness over solid angle [1/sr]
 uniform sampler2D environment_directions;  // a list of places (u, v) in the map, drawn by brightness
 uniform vec2 environment_turn;             // cosine and sine of the rotation about +y
@@ -39,7 +40,7 @@ vec4 environment(vec3 d) {
 
 // Three numbers in [0, 1) for sample n of the pixel: a sequence of low discrepancy, shifted from pixel to pixel.
 vec3 numbers(int n) {
-    uvec3 v = uvec3(gl_FragCoord.xy, 7u) * 1664525u + 1013904223u;  // pcg3d [Jarzynski2020]
+    uvec3 v = uvec3(gl_FragCoord.xy, environment_seed) * 1664525u + 1013904223u;  // pcg3d [Jarzynski2020]
     v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
     v ^= v >> 16u;
     v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;

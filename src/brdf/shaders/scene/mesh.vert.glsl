@@ -3,6 +3,7 @@
 uniform sampler2D mesh_faces;  // see surface.mesh.glsl
 uniform vec2 camera_depths;    // nearest and farthest distance along the view that the mesh reaches
 
+invariant gl_Position;  // the pass for depth alone comes to the same
 flat out int face;
 out vec2 weights;  // of the second and third corner
 

@@ -1,6 +1,6 @@
 // Whether the mesh stands between a point and a light: rays through a tree of boxes, in depth-first order, so that no
-// stack is needed. Two texels a node: (least corner, first face * 16 + faces, or -1 within the tree), (greatest corner,
-// the node to go on with where the box is missed).
+// stack is needed. Two texels a node: (least corner, first face of a leaf, or -1 within the tree), (greatest corner,
+// number of faces of a leaf, or the node to go on with where the box is missed).
 
 uniform sampler2D mesh_nodes;
 uniform int mesh_node_count;  // 0: nothing casts shadows
@@ -27,14 +27,12 @@ bool shadowed(vec3 origin, vec3 ray, float distance) {
     float reach = max(distance - 2.0 * mesh_nudge, 0.0);
     for (int node = 0; node < mesh_node_count;) {
         vec4 least = mesh_texel(mesh_nodes, 2 * node), greatest = mesh_texel(mesh_nodes, 2 * node + 1);
-        if (!meets_box(origin, inverse, least.xyz, greatest.xyz, reach)) {
-            node = int(greatest.w);
-            continue;
-        }
-        int leaf = int(least.w);
-        for (int k = 0; leaf >= 0 && k < (leaf & 15); k++)
-            if (meets_face(origin, ray, (leaf >> 4) + k, reach)) return true;
-        node++;
+        bool met = meets_box(origin, inverse, least.xyz, greatest.xyz, reach);
+        int first = int(least.w), last = first + int(greatest.w);
+        if (first >= 0 && met)
+            for (int i = first; i < last; i++)
+                if (meets_face(origin, ray, i, reach)) return true;
+        node = met || first >= 0 ? node + 1 : int(greatest.w);
     }
     return false;
 }

@@ -1,0 +1,2 @@
+// Depth is written as it is.
+void main() {}
