@@ -8,16 +8,27 @@ import numpy as np
 
 import brdf
 from brdf import ShadingMap, SliceStack, SpatiallyVarying, SphereImages, Table, TwoSided, models
+from brdf.geometry.warps import Circle, listed
 from brdf.models import GGX, EnergyCompensated, Lambertian, Microfacet
 from brdf.reflectance import Reflectance
+from brdf.representations.baking.bake import bake_points
+from brdf.representations.neural import SHAPES, NeuralBRDF
+from brdf.representations.patches import Patches
 from brdf.representations.shading.compression import METHODS
 from brdf.representations.spheres.blends import BLENDS
 from brdf.representations.storage import STORAGES
+from brdf.representations.tables.encoding import Encoding
+from brdf.representations.tables.layout import Layout
+from brdf.representations.tables.specular import AnisotropicSpecularBasis, SpecularBasis
 from mesostructures import ACQUIRED, photographs
 
 RNG = np.random.default_rng(3)
 PLASTIC = Lambertian(albedo=(0.1, 0.2, 0.3)) + GGX(alpha=0.25)
 BRUSHED = Lambertian(albedo=(0.1, 0.2, 0.3)) + GGX(alpha_x=0.25, alpha_y=0.6)
+POLAR = (listed(np.radians([0, 10, 30, 50, 80])), listed(np.radians([0, 2, 5, 10, 20, 90, 180])))
+SPECULAR = Layout(SpecularBasis(), (*POLAR, listed(np.linspace(0, np.pi, 7))), (5, 7, 7), Encoding())
+AROUND = (Circle(), *POLAR, listed(np.linspace(0, 2 * np.pi, 9)))
+SPECULAR_TURNED = Layout(AnisotropicSpecularBasis(), AROUND, (6, 5, 7, 9), Encoding())
 ALPHA, COLOUR = RNG.uniform(0.05, 0.8, (4, 5)), RNG.uniform(0, 1, (3, 2, 3))
 SAMPLE = ShadingMap.from_images(photographs("stone", 24), ACQUIRED)
 
@@ -49,6 +60,10 @@ TABLES: dict[str, Callable[[], Reflectance]] = {
     **{f"sphere images, {blend}": lambda blend=blend: SphereImages.bake(PLASTIC, size=32, blend=blend)
        for blend in BLENDS},
     "sphere images, bytes": lambda: SphereImages.bake(PLASTIC, size=32, storage="8-8-8", blend="paper"),
+    "patches": lambda: Patches(RNG.uniform(0, 1, (9, 9, 3)), np.radians([0, 20, 90]), (1, 8)),
+    "neural": lambda: NeuralBRDF({k: RNG.normal(0, 0.3, shape).astype(np.float32) for k, shape in SHAPES.items()}),
+    "table, specular": lambda: bake_points(PLASTIC, SPECULAR),
+    "table, specular, four axes": lambda: bake_points(BRUSHED, SPECULAR_TURNED),
     "shading map": lambda: SAMPLE,
     "shading map, pca": lambda: SAMPLE.compress(2),
     **{f"shading map, {method}": lambda method=method: SAMPLE.compress(method=method)

@@ -21,6 +21,7 @@ from brdf.geometry.warps import (
     TwoSided,
     Warp,
     identity,
+    listed,
     square_root,
     uniform,
     warp_from,
@@ -43,6 +44,8 @@ WARPS = [
     Spline(HALF_PI, square_root(), tuple(np.geomspace(1, 1e-3, 16))),
     TwoSided(),
     TwoSided(half=Bezier(math.pi, 0.2)),
+    listed(np.radians([0, 5, 10, 15, 20, 30, 40, 50, 60, 70, 80, 90])),
+    listed(np.radians([0, 1, 5, 90, 200, 360])),
 ]
 
 

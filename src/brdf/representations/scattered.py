@@ -1,4 +1,4 @@
-"""Measurements at scattered pairs of directions, with spectra: resampled once, then looked up.
+"""Measurements at scattered pairs of directions, of spectra or RGB: resampled once, then looked up.
 
 An isotropic, reciprocal reflectance with mirror symmetry depends on three numbers: the half angle theta_h,
 the difference angle theta_d and |cos phi_d|. The logarithms of the measured values are interpolated in these
@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..color import rgb_weights
+from ..errors import ReflectanceError
 from ..formula import Scalar, Vec, abs, atan2, engine, length, maximum, minimum, sqrt, texture3d
 from ..geometry.arguments import broadcast_directions
 from ..reflectance import Floats, Reflectance
@@ -47,7 +48,7 @@ _TINY = 1e-9
 
 
 class Scattered(Reflectance):
-    """Spectra on a grid over (theta_h, theta_d, |cos phi_d|), made from scattered measurements by `from_samples`.
+    """Spectra or RGB on a grid over (theta_h, theta_d, |cos phi_d|), made by `from_samples` of scattered measurements.
 
         f(wi, wo) = rgb(theta_h, theta_d, |cos phi_d|)      [1/sr]
 
@@ -55,21 +56,33 @@ class Scattered(Reflectance):
     call.
     """
 
-    def __init__(self, spectra: ArrayLike, wavelengths: ArrayLike) -> None:
-        """`spectra` (nh, nd, np, W) in 1/sr at the nodes, `wavelengths` (W,) in nm. Raises ValueError."""
+    def __init__(self, spectra: ArrayLike, wavelengths: ArrayLike | None = None) -> None:
+        """`spectra` (nh, nd, np, W) in 1/sr at the nodes, `wavelengths` (W,) in nm; without them W = 3 is RGB.
+
+        Raises ValueError.
+        """
         with np.errstate(over="ignore"):  # what does not fit becomes infinite, and is refused below
             self.spectra: NDArray[np.float32] = np.ascontiguousarray(spectra, np.float32)
-        self.wavelengths: NDArray[np.float64] = np.asarray(wavelengths, np.float64)
-        weights = rgb_weights(self.wavelengths)
+        self.wavelengths: NDArray[np.float64] | None = None
+        """Of the channels, nm; None when they are RGB."""
+        weights = np.eye(3)
+        if wavelengths is not None:
+            self.wavelengths = np.asarray(wavelengths, np.float64)
+            weights = rgb_weights(self.wavelengths)
         if self.spectra.ndim != 4 or min(self.spectra.shape) < 1 or self.spectra.shape[-1] != len(weights):
             raise ValueError(f"spectra must be (nh, nd, np, {len(weights)}), got {self.spectra.shape}")
         if not (np.isfinite(self.spectra).all() and self.spectra.min() >= 0):
             raise ValueError("spectra must be finite and not below zero")
-        self._rgb = self.spectra @ weights.astype(np.float32)
+        self._rgb = self.spectra if wavelengths is None else self.spectra @ weights.astype(np.float32)
 
     @classmethod
-    def from_samples(cls, wi: ArrayLike, wo: ArrayLike, values: ArrayLike, wavelengths: ArrayLike) -> Scattered:
-        """From measured `values` (N, W) [1/sr] at unit directions `wi`, `wo` (N, 3); negative values count as zero."""
+    def from_samples(
+        cls, wi: ArrayLike, wo: ArrayLike, values: ArrayLike, wavelengths: ArrayLike | None = None
+    ) -> Scattered:
+        """From measured `values` (N, W) [1/sr] at unit directions `wi`, `wo` (N, 3); negative values count as zero.
+
+        Without `wavelengths` (W,) in nm the values are RGB.
+        """
         wi, wo, values = (np.asarray(a, np.float64) for a in (wi, wo, values))
         logarithms, floor = _compressed(np.maximum(values, 0))
         interpolate = _interpolant(_features(*_invariants(Vec(*wi.T), Vec(*wo.T))), logarithms)
@@ -93,7 +106,7 @@ class Scattered(Reflectance):
 
     @property
     def nbytes(self) -> int:
-        return self.spectra.nbytes + self._rgb.nbytes
+        return self.spectra.nbytes + (0 if self.wavelengths is None else self._rgb.nbytes)
 
     def f(self, wi: Vec, wo: Vec) -> Vec:
         rgb: Vec = texture3d(self.rgb, *_coordinates(wi, wo, self.grid))
@@ -110,7 +123,12 @@ class Scattered(Reflectance):
         return self._rgb
 
     def spectrum(self, wi: ArrayLike, wo: ArrayLike) -> Floats:
-        """f [1/sr] per wavelength: (..., 3), (..., 3) -> (..., W); zero below the horizon. Raises DirectionError."""
+        """f [1/sr] per wavelength: (..., 3), (..., 3) -> (..., W); zero below the horizon.
+
+        Raises ReflectanceError when the measurements are RGB only, DirectionError as the call.
+        """
+        if self.wavelengths is None:
+            raise ReflectanceError(f"{self.name or 'this measurement'} holds RGB only, no spectrum")
         wi, wo, shape = broadcast_directions(wi, wo)
         engine.check_lengths(wi=wi, wo=wo)
         channels = texture3d(self.spectra, *_coordinates(Vec(*wi.T), Vec(*wo.T), self.grid))
@@ -119,14 +137,16 @@ class Scattered(Reflectance):
         return values.reshape(*shape, -1)
 
     def _state(self) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-        return {}, {"spectra": self.spectra, "wavelengths": self.wavelengths}
+        nodes = {} if self.wavelengths is None else {"wavelengths": self.wavelengths}
+        return {}, {"spectra": self.spectra, **nodes}
 
     @classmethod
     def _restore(cls, header: Any, arrays: Mapping[str, NDArray[Any]], children: Any) -> Reflectance:
-        return cls(arrays["spectra"], arrays["wavelengths"])
+        return cls(arrays["spectra"], arrays.get("wavelengths"))
 
     def __repr__(self) -> str:
-        return f"Scattered({self.name!r}, {len(self.wavelengths)} wavelengths)"
+        channels = "RGB" if self.wavelengths is None else f"{len(self.wavelengths)} wavelengths"
+        return f"Scattered({self.name!r}, {channels})"
 
 
 def _invariants(wi: Vec, wo: Vec) -> tuple[Scalar, Scalar, Scalar]:

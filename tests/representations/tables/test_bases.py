@@ -15,18 +15,20 @@ from brdf.representations.tables.anisotropic import AnisotropicHalfBasis, Anisot
 from brdf.representations.tables.bases import HalfBasis, NormalBasis, basis_from
 from brdf.representations.tables.encoding import Encoding, Log
 from brdf.representations.tables.layout import Layout
+from brdf.representations.tables.specular import AnisotropicSpecularBasis, SpecularBasis
 from brdf.representations.tables.triangle_bases import MarschnerBasis, ShearedBasis, StarkBasis
 from helpers import random_directions
 
 HALF_PI = math.pi / 2
 WI, WO = random_directions(500, 1), random_directions(500, 2)
 TRIANGLES = [ShearedBasis(), MarschnerBasis(), StarkBasis()]
-ISOTROPIC = [HalfBasis("half-turn"), HalfBasis("quarter-turn"), NormalBasis(), *TRIANGLES]
+ISOTROPIC = [HalfBasis("half-turn"), HalfBasis("quarter-turn"), NormalBasis(), SpecularBasis(), *TRIANGLES]
 ANISOTROPIC = [
     AnisotropicHalfBasis("half-turn", "full"),
     AnisotropicHalfBasis("quarter-turn", "half"),
     AnisotropicNormalBasis("none", "full"),
     AnisotropicNormalBasis("half-turn", "half"),
+    AnisotropicSpecularBasis(),
 ]
 
 

@@ -69,7 +69,7 @@ class AnisotropicHalfBasis(Basis):
     def directions(self, *angles: Array) -> tuple[Array, Array]:
         phi_h, *others = np.broadcast_arrays(*angles)
         wi, wo = HalfBasis(self.fold).directions(*others)
-        return _turned(wi, phi_h), _turned(wo, phi_h)
+        return turned(wi, phi_h), turned(wo, phi_h)
 
     def above_horizon(self, *angles: Array, margin: float) -> tuple[Array, ...]:
         return angles[0], *HalfBasis(self.fold).above_horizon(*angles[1:], margin=margin)
@@ -122,7 +122,7 @@ class AnisotropicNormalBasis(Basis):
     def directions(self, *angles: Array) -> tuple[Array, Array]:
         phi_i, *others = np.broadcast_arrays(*angles)
         wi, wo = NormalBasis().directions(*others)
-        return _turned(wi, phi_i), _turned(wo, phi_i)
+        return turned(wi, phi_i), turned(wo, phi_i)
 
     def above_horizon(self, *angles: Array, margin: float) -> tuple[Array, ...]:
         return angles[0], *NormalBasis().above_horizon(*angles[1:], margin=margin)
@@ -143,7 +143,7 @@ def _circle(turn: str) -> float:
     return 2 * math.pi if turn == "full" else math.pi
 
 
-def _turned(w: Array, phi: Array) -> Array:
+def turned(w: Array, phi: Array) -> Array:
     """(..., 3) directions turned about the normal by (...) angles."""
     cosine, sine = np.cos(phi), np.sin(phi)
     return np.stack([cosine * w[..., 0] - sine * w[..., 1], sine * w[..., 0] + cosine * w[..., 1], w[..., 2]], -1)

@@ -14,7 +14,7 @@ from ...errors import ReflectanceError
 from ...formula import Scalar, Vec, floor, mix, texture3d, where
 from ...geometry.warps import Angle, Warp, warp_from
 from ..storage import storage
-from . import anisotropic, triangle_bases  # noqa: F401  # they enter the registry of bases
+from . import anisotropic, specular, triangle_bases  # noqa: F401  # they enter the registry of bases
 from .bases import Basis, basis_from
 from .encoding import Encoding, encoding_from
 from .filters import texture_filter
