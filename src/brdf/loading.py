@@ -24,7 +24,8 @@ def load(spec: str | os.PathLike[str]) -> Reflectance:
 
     `spec` is one of
       - the name of a shipped material, `gold-metallic-paint`, or one published fit of it, `NAME@FIT`;
-      - a path to a file of any format of `brdf.io.formats()`, recognised by its content;
+      - a path to a file of any format of `brdf.io.formats()`, recognised by its content, or, of a file that holds
+        several materials, `PATH@NAME`;
       - a model with parameters, `GGX:alpha=0.2,F0=1/.78/.34` (colours with slashes, choices by name);
       - a sum of those with `+`, each with a factor if wanted: `Lambertian:albedo=.3 + 0.5*GGX:alpha=.1`.
     A name wins over a file that is called the same; write `./NAME` for the file. Raises UnknownNameError, FileError,
@@ -91,6 +92,9 @@ def _atom(text: str) -> Reflectance:
         return materials.get(name, fit) if at else materials.get(name)
     if os.path.exists(text):
         return io.read(text)
+    file, at_member, member = text.rpartition("@")
+    if at_member and os.path.isfile(file):
+        return io.read(file, member)
     if head.strip() in materials.names() and parameters:
         raise ParameterError(f"{head.strip()} is a published fit and takes no parameters; models do, as GGX:alpha=0.2")
     if at and name.strip().lower() in model_names:

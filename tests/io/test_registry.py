@@ -52,7 +52,7 @@ def test_empty_file(tmp_path):
 
 @pytest.mark.parametrize("name", ["m.bsdf", "m.brdf", "m.txt", "m"])
 def test_unknown_content_lists_what_is_read(tmp_path, name):
-    (tmp_path / name).write_text("analytic\n::begin parameters\n")
+    (tmp_path / name).write_text("made up\n::begin parameters\n")
     with pytest.raises(UnknownFormatError, match=r"no known format; read: .*MERL.*RGL.*safetensors") as caught:
         io.read(tmp_path / name)
     assert "\n" not in str(caught.value)

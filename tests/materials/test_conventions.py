@@ -15,7 +15,8 @@ from brdf import materials
 from brdf.combinators import Sum
 from brdf.errors import UnknownNameError
 from brdf.geometry.directions import from_spherical, reflected
-from brdf.materials import catalogue, conventions
+from brdf.io import bbm_conventions as conventions
+from brdf.materials import catalogue
 from brdf.models import HeTorrance, Lambertian, ModifiedPhong
 from brdf.reflectance import Reflectance
 from lobes import direction

@@ -7,7 +7,6 @@ one line a measurement: theta_i phi_i theta_o phi_o in radians and the BRDF [1/s
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +17,7 @@ from ..geometry.directions import from_spherical
 from ..reflectance import Reflectance
 from ..representations.scattered import Scattered
 from .registry import Format
+from .text import Rows, lines, numbers
 
 MOST_WAVELENGTHS = 2000
 """More than any instrument gives; a larger number is a broken file."""
@@ -51,49 +51,29 @@ def read_rows(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64], NDA
 
     Raises CorruptFileError, which names the line.
     """
-    with path.open(encoding="ascii", errors="replace") as file:
-        lines = _numbers(path, enumerate(file, start=1))
-        number, first = next(lines, (1, []))
-        if len(first) != 1 or not (first[0].is_integer() and 1 <= first[0] <= MOST_WAVELENGTHS):
-            wanted = f"the number of wavelengths, 1 to {MOST_WAVELENGTHS}"
-            raise CorruptFileError(path, f"line {number} must hold {wanted}.")
-        count = int(first[0])
-        wavelengths: list[float] = []
-        while len(wavelengths) < count:
-            number, more = next(lines, (number, []))
-            wavelengths += more
-            if not more or len(wavelengths) > count:
-                found = f"{len(wavelengths)} of {count} wavelengths are there"
-                raise CorruptFileError(path, f"line {number}: {found}; fetch the file again.")
-        rows = [_checked(path, number, row, count) for number, row in lines]
-    if not rows:
-        raise CorruptFileError(path, f"holds no measurement after line {number}; fetch the file again.")
-    table = np.array(rows)
+    content = ((number, numbers(path, number, line.split())) for number, line in lines(path))
+    number, first = next(content, (1, []))
+    if len(first) != 1 or not (first[0].is_integer() and 1 <= first[0] <= MOST_WAVELENGTHS):
+        wanted = f"the number of wavelengths, 1 to {MOST_WAVELENGTHS}"
+        raise CorruptFileError(path, f"line {number} must hold {wanted}.")
+    count = int(first[0])
+    wavelengths: list[float] = []
+    while len(wavelengths) < count:
+        number, more = next(content, (number, []))
+        wavelengths += more
+        if not more or len(wavelengths) > count:
+            found = f"{len(wavelengths)} of {count} wavelengths are there"
+            raise CorruptFileError(path, f"line {number}: {found}; fetch the file again.")
+    rows = Rows(path, 4 + count, f"4 angles and {count} values")
+    last = number
+    for number, row in content:
+        rows.add(number, row)
+        if not all(0 <= theta <= math.pi / 2 + _TOLERANCE for theta in (row[0], row[2])):
+            raise CorruptFileError(path, f"line {number}: zenith angles must lie in 0 to pi/2 radians.")
+    table = rows.table()
+    if not len(table):
+        raise CorruptFileError(path, f"holds no measurement after line {last}; fetch the file again.")
     return np.array(wavelengths), table[:, :4], table[:, 4:]
-
-
-def _numbers(path: Path, lines: Iterator[tuple[int, str]]) -> Iterator[tuple[int, list[float]]]:
-    """The lines that hold numbers: line number and the numbers. Raises CorruptFileError."""
-    for number, line in lines:
-        tokens = line.partition("#")[0].split()
-        if not tokens:
-            continue
-        try:
-            values = [float(token) for token in tokens]
-        except ValueError:
-            raise CorruptFileError(path, f"line {number} must hold numbers, got {line.strip()[:40]!r}.") from None
-        if not all(map(math.isfinite, values)):
-            raise CorruptFileError(path, f"line {number} holds NaN or infinity.")
-        yield number, values
-
-
-def _checked(path: Path, number: int, row: list[float], count: int) -> list[float]:
-    if len(row) != 4 + count:
-        wanted = f"4 angles and {count} values"
-        raise CorruptFileError(path, f"line {number} holds {len(row)} numbers, not {wanted}; fetch the file again.")
-    if not all(0 <= theta <= math.pi / 2 + _TOLERANCE for theta in (row[0], row[2])):
-        raise CorruptFileError(path, f"line {number}: zenith angles must lie in 0 to pi/2 radians.")
-    return row
 
 
 FORMAT = Format(

@@ -11,12 +11,12 @@ import functools
 import importlib
 import os
 import pkgutil
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-from ..errors import CorruptFileError, FileError, UnknownFormatError
+from ..errors import CorruptFileError, FileError, UnknownFormatError, UnknownNameError
 from ..reflectance import Reflectance
 
 HEAD_BYTES = 8192
@@ -40,6 +40,12 @@ class Format:
     """Without one, a file that nothing recognises is still read by its extension, so that the error names the fault."""
     folder_file: str | None = None
     """The file by which a folder is recognised, for a format that may be one."""
+    members: Callable[[Path], Mapping[str, Callable[[], Reflectance]]] | None = None
+    """For files that hold several materials: how each is made, by name, in the place of `reader`."""
+
+    @property
+    def reads(self) -> bool:
+        return self.reader is not None or self.members is not None
 
 
 class FormatInfo(NamedTuple):
@@ -62,23 +68,45 @@ def _all() -> tuple[Format, ...]:
 
 def formats() -> list[FormatInfo]:
     """Every format, by name."""
-    return [FormatInfo(f.name, f.extensions, f.reader is not None, f.writer is not None, f.doc) for f in _all()]
+    return [FormatInfo(f.name, f.extensions, f.reads, f.writer is not None, f.doc) for f in _all()]
 
 
-def read(path: str | os.PathLike[str]) -> Reflectance:
-    """The reflectance in a file of any known format.
+def read(path: str | os.PathLike[str], member: str | None = None) -> Reflectance:
+    """The reflectance in a file of any known format; of several in one file, the one called `member`.
 
     Its `name` is the file's stem unless the file holds one, its `source` says which file it was. Raises
     FileError (missing, a folder, not readable), UnknownFormatError (content of no known format),
-    CorruptFileError (broken content).
+    CorruptFileError (broken content), UnknownNameError for a member that is not there.
     """
     path = Path(path)
     format_ = format_of(path)
-    assert format_.reader is not None
     try:
+        if format_.members is not None:
+            return _member(path, format_.members(path), member)
+        if member is not None:
+            raise FileError(path, f"holds one material, none called {member!r}; leave @{member} out.")
+        assert format_.reader is not None
         return format_.reader(path)
     except OSError as error:
         raise FileError(path, f"cannot be read ({error.strerror or error}).") from None
+
+
+def members(path: str | os.PathLike[str]) -> list[str]:
+    """The names of the materials in a file that holds several, [] for every other. Raises as `read`."""
+    format_ = format_of(path)
+    return [] if format_.members is None else list(format_.members(Path(path)))
+
+
+def _member(path: Path, made: Mapping[str, Callable[[], Reflectance]], name: str | None) -> Reflectance:
+    if name is None:
+        if len(made) > 1:
+            first, *_, last = made
+            choice = f"choose one as in {path.name}@{first}"
+            raise FileError(path, f"holds {len(made)} materials, {first} to {last}; {choice}.")
+        name = next(iter(made))
+    if name not in made:
+        raise UnknownNameError(f"material in {path}", name, made)
+    return made[name]()
 
 
 def write(reflectance: Reflectance, path: str | os.PathLike[str]) -> None:
@@ -119,7 +147,7 @@ def format_of(path: str | os.PathLike[str]) -> Format:
     if not head:
         raise CorruptFileError(path, "is empty (0 bytes); fetch or write it again.")
 
-    readers = [f for f in _all() if f.reader is not None]
+    readers = [f for f in _all() if f.reads]
     by_content = [f for f in readers if f.recognises(head, size)]
     by_extension = [f for f in readers if path.suffix.lower() in f.extensions]
     for format_ in by_content:

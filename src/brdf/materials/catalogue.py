@@ -2,7 +2,7 @@
 
 The numbers are in `data/fits.json`, packed by `tools/pack_fits.py` from the tables of github.com/bsdfbenchmark/bbm
 (licence beside the data): for every fit a column a parameter, in the order of its materials; what they mean is in
-`conventions`. The measurements themselves (Matusik2003) are not shipped.
+`io.bbm_conventions`. The measurements themselves (Matusik2003) are not shipped.
 """
 
 from __future__ import annotations
@@ -14,9 +14,10 @@ from dataclasses import dataclass
 from importlib import resources
 
 from ..errors import UnknownNameError
+from ..io import bbm_conventions as conventions
+from ..io.bbm_conventions import Row
 from ..reflectance import Reflectance
-from . import conventions, providers
-from .conventions import Row
+from . import providers
 
 
 @dataclass(frozen=True)
