@@ -57,7 +57,7 @@ def test_only_directions_above_the_horizon_were_measured(data, file):
     for i, j, k in np.ndindex(len(incidence), len(azimuth), len(radial)):
         wi, wo = directions(incidence[i], azimuth[j], radial[k])
         elevation.append(np.degrees(np.arccos(np.clip(wo[2], -1, 1))))
-        shaded.append(wi @ wo > np.cos(np.radians(15)))
+        shaded.append(wi @ wo > np.cos(np.radians(30)))
         measured.append(contents.values[0, 0, i, j, k] > 0)
     elevation, measured = np.array(elevation), np.array(measured)
     assert measured[(elevation < 79) & ~np.array(shaded)].all()
