@@ -73,3 +73,9 @@ def test_render_stays_a_function_whatever_is_imported_first() -> None:
         "assert image.pixels.shape == (12, 16, 3)\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True, timeout=120)
+
+
+def test_shapes_and_lights_load_no_compiler() -> None:
+    code = "from brdf.render import Camera, Directional, Environment, Mesh; from brdf.render.mesh import load"
+    code += "\nfrom brdf.render.environment import load as light; load('teapot'); load('plane'); light('studio')"
+    assert modules_after(code) & HEAVY == set()

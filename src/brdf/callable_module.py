@@ -13,8 +13,19 @@ from types import ModuleType
 from typing import Any
 
 
-def make_callable(module_name: str, function: Callable[..., Any]) -> None:
-    """Make the module of that name, already in `sys.modules`, answer calls as `function` does."""
+def make_callable(module_name: str, function: Callable[..., Any] | str) -> None:
+    """Make the module of that name, already in `sys.modules`, answer calls as `function` does.
+
+    A text names an attribute of the module, which is looked up when it is needed.
+    """
     module = sys.modules[module_name]
-    module.__class__ = type("CallableModule", (ModuleType,), {"__call__": staticmethod(function)})
-    vars(module)["__signature__"] = inspect.signature(function)
+
+    def called() -> Callable[..., Any]:
+        found: Callable[..., Any] = getattr(module, function) if isinstance(function, str) else function
+        return found
+
+    members = {
+        "__call__": lambda self, *arguments, **options: called()(*arguments, **options),
+        "__signature__": property(lambda self: inspect.signature(called())),
+    }
+    module.__class__ = type("CallableModule", (ModuleType,), members)

@@ -8,7 +8,7 @@ from tests.representations.synthetic_rgl import tensors
 
 import brdf
 import containers
-from brdf.errors import ParameterError, SceneError
+from brdf.errors import ParameterError, SceneError, UnknownNameError
 from brdf.models import GGX, Lambertian, Mirror
 from brdf.render import Directional, Environment, Mesh, Point
 from brdf.render import mesh as meshes_of
@@ -126,10 +126,13 @@ def test_lights_are_as_the_renderer_takes_them() -> None:
             {"kind": "point", "position": [1.0, 2.0, 3.0], "power": [1.0, 1.0, 1.0]},
         ],
         "environment": None,
+        "turn": 0.0,
         "exposure": 0.0,
         "tone": "clip",
         "shadows": True,
     }
+    turned = View(env=Environment(np.ones((8, 16, 3)), rotation=30))
+    assert turned.state["turn"] == pytest.approx(30)
     both = View(lights=Directional(), env=0.5)
     assert both.state["environment"] == "constant 0.5"
     assert len(both.state["lights"]) == 1
@@ -165,5 +168,7 @@ def test_mistakes() -> None:
         payload([])
     with pytest.raises(SceneError, match="at most 8 lights, got 9"):
         View(lights=[Directional()] * 9)
-    with pytest.raises(brdf.errors.UnknownNameError, match="did you mean 'teapot'"):
+    with pytest.raises(UnknownNameError, match="did you mean 'teapot'"):
         View(mesh="teapott")
+    with pytest.raises(UnknownNameError, match="unknown tone curve 'film'"):
+        View(tone="film")

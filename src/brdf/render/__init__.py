@@ -1,14 +1,24 @@
-"""Pictures of a material: shapes, lights, cameras, and the renderer that runs anywhere."""
+"""Pictures of a material: shapes, lights, cameras, and the renderer that runs anywhere.
+
+Names are handed on lazily: a shape or a light loads no compiler.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
 
 from ..callable_module import make_callable
-from .caption import captioned
-from .environment import Environment
-from .image import Image
-from .lights import Directional, Point
-from .mesh import Mesh
-from .per_vertex import render_per_vertex
-from .pictures import render, render_halves
-from .scene import Camera
+
+if TYPE_CHECKING:
+    from .caption import captioned
+    from .environment import Environment
+    from .image import Image
+    from .lights import Directional, Point
+    from .mesh import Mesh
+    from .per_vertex import render_per_vertex
+    from .pictures import render, render_halves
+    from .scene import Camera
 
 __all__ = [
     "Camera",
@@ -23,4 +33,25 @@ __all__ = [
     "render_per_vertex",
 ]
 
-make_callable(__name__, render)
+_NAMES = {
+    "Camera": "scene",
+    "Directional": "lights",
+    "Environment": "environment",
+    "Image": "image",
+    "Mesh": "mesh",
+    "Point": "lights",
+    "captioned": "caption",
+    "render": "pictures",
+    "render_halves": "pictures",
+    "render_per_vertex": "per_vertex",
+}
+"""Public name: the module it lives in."""
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _NAMES:
+        raise AttributeError(f"module 'brdf.render' has no attribute {name!r}")
+    return getattr(importlib.import_module(f".{_NAMES[name]}", __name__), name)
+
+
+make_callable(__name__, "render")

@@ -10,9 +10,6 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-import numba
-
-from ..formula.machine_code import kept_on_disk
 from ..threads import cores, in_ranges
 
 GRAIN = 16384
@@ -46,6 +43,10 @@ def helper(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _njit(*signature: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    import numba
+
+    from ..formula.machine_code import kept_on_disk
+
     njit: Any = numba.njit
     decorator: Callable[[Callable[..., Any]], Callable[..., Any]] = njit(
         *signature, nogil=True, cache=kept_on_disk(), error_model="numpy"

@@ -15,7 +15,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import CorruptFileError, FileError, SceneError, UnknownNameError
-from . import environment_kernels as kernels
 from . import radiance_file
 from .compiled import in_parallel
 
@@ -60,6 +59,8 @@ class Environment:
 
     def radiance(self, directions: Floats) -> tuple[Floats, Floats]:
         """World directions (N, 3) -> radiance (N, 3) and the density of `sample` there (N,) [1/sr]."""
+        from . import environment_kernels as kernels
+
         count = len(directions)
         radiance, density = np.empty((count, 3), np.float32), np.empty(count, np.float32)
         in_parallel(kernels.look_up, count, directions, self.pixels, self.density, *self.turn, radiance, density)
@@ -67,6 +68,8 @@ class Environment:
 
     def sample(self, u: Floats) -> tuple[Floats, Floats, Floats]:
         """Numbers (N, 2) in [0, 1) -> world directions (N, 3), radiance (N, 3), density (N,) [1/sr]."""
+        from . import environment_kernels as kernels
+
         directions = np.empty((len(u), 3), np.float32)
         in_parallel(kernels.sample, len(u), u, self._rows, self._columns, *self.turn, directions)
         return directions, *self.radiance(directions)

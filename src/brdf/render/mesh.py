@@ -187,7 +187,7 @@ def _plane() -> Mesh:
     vertices = np.array([(-1, 0, 1), (1, 0, 1), (1, 0, -1), (-1, 0, -1)], float)
     faces = np.array([(0, 1, 2), (0, 2, 3)])
     uv = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], float)
-    return _made("plane", vertices, faces, None, uv[faces])
+    return _made("plane", vertices, faces, np.broadcast_to((0.0, 1.0, 0.0), (2, 3, 3)), uv[faces])
 
 
 BUILT_IN: dict[str, Callable[[], Mesh]] = {"teapot": _teapot, "sphere": _sphere, "plane": _plane}

@@ -7,7 +7,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..errors import ParameterError, SceneError
+import numpy as np
+
+from ..errors import ParameterError, SceneError, UnknownNameError
 from ..reflectance import Reflectance
 from ..render import environment as environments_of
 from ..render import lights as light_texts
@@ -15,6 +17,7 @@ from ..render import mesh as meshes_of
 from ..render.environment import Environment
 from ..render.lights import Directional, Light, Point
 from ..render.mesh import Mesh
+from ..render.tone import CURVES
 from ..shaders import stages
 from . import environments, materials, meshes
 from .blob import Blob, container
@@ -50,6 +53,8 @@ class View:
         lights = tuple(light_texts.parse(light) if isinstance(light, str) else light for light in given or ())
         if len(lights) > MOST_LIGHTS:
             raise SceneError(f"a page shows at most {MOST_LIGHTS} lights, got {len(lights)}")
+        if self.tone not in CURVES:
+            raise UnknownNameError("tone curve", self.tone, CURVES)
         env = "studio" if self.env is None and not lights else self.env
         object.__setattr__(self, "chosen_mesh", meshes_of.load(self.mesh))
         object.__setattr__(self, "chosen_lights", lights)
@@ -58,10 +63,12 @@ class View:
     @property
     def state(self) -> dict[str, Any]:
         """The same as plain data: what the page's script starts from."""
+        cos, sin = (1.0, 0.0) if self.chosen_env is None else self.chosen_env.turn
         return {
             "mesh": self.chosen_mesh.name,
             "lights": [_light(light) for light in self.chosen_lights],
             "environment": None if self.chosen_env is None else self.chosen_env.name,
+            "turn": float(np.degrees(np.arctan2(sin, cos))),
             "exposure": self.exposure,
             "tone": self.tone,
             "shadows": self.shadows,
@@ -81,7 +88,7 @@ def payload(shown: Sequence[Reflectance], view: View | None = None, compare: boo
     blob = Blob()
     description = {
         "version": VERSION,
-        "title": " · ".join(m.name or type(m).__name__ for m in shown),
+        "title": title_of(shown),
         "stages": stage_texts(),
         "materials": [materials.described(m, blob) for m in shown],
         "comparison": _comparison(shown) if compare and len(shown) > 1 else None,
@@ -90,6 +97,11 @@ def payload(shown: Sequence[Reflectance], view: View | None = None, compare: boo
         "state": view.state,
     }
     return container(description, blob)
+
+
+def title_of(shown: Sequence[Reflectance]) -> str:
+    """The names, as they stand in the window's title."""
+    return " · ".join(m.name or type(m).__name__ for m in shown)
 
 
 def stage_texts() -> dict[str, Any]:
