@@ -25,7 +25,7 @@ const found = {};
 for (const file of process.argv.slice(2)) {
     try {
         const bytes = readFileSync(file);
-        const { texels, ...rest } = await parse(new Uint8Array(bytes).buffer, file, {});
+        const { texels, ...rest } = await parse(new Uint8Array(bytes).buffer, file);
         writeFileSync(file + ".bin", new Uint8Array(texels));
         found[file] = rest;
     } catch (error) {
@@ -140,15 +140,15 @@ def test_broken_files_are_refused_in_a_sentence(tmp_path: Path) -> None:
     broken(tmp_path / "no gzip", {"__metadata__": {"brdf": json.dumps(head | {"shader": "AAAA"})}})
     expected = {
         "empty": "has 0 bytes, too few for a safetensors file (8).",
-        "truncated": "; fetch it again.",
+        "truncated": "; fetch the file again.",
         "no json": "is not a safetensors file: its header is not JSON.",
-        "two gigabytes": "claims a header of 2147483648 bytes in a file of 10; it is truncated, or not a",
-        "no safetensors": "it is truncated, or not a safetensors file.",
-        "huge tensor": "its tensor 'a' claims bytes 0 to 2147483648 of 0; fetch it again.",
-        "negative": "its tensor 'a' claims bytes 0 to -4 of 0; fetch it again.",
-        "foreign": "a safetensors file, but not one of brdf's (its header is missing).",
+        "two gigabytes": "claims a header of 2147483648 bytes in a file of 10: it is truncated, or no",
+        "no safetensors": "it is truncated, or no safetensors file.",
+        "huge tensor": "its tensor 'a' claims bytes 0 to 2147483648 of 0; fetch the file again.",
+        "negative": "its tensor 'a' claims bytes 0 to -4 of 0; fetch the file again.",
+        "foreign": "is a safetensors file, but not one of brdf's: its header is missing.",
         "newer": "was written by a newer brdf; make the page with that one.",
-        "no gzip": "its shader cannot be read (",
+        "no gzip": "the shader in it cannot be read (",
         "old": "carries no shader: an earlier brdf wrote it, or it has no formula. Save it again, or bake it: ",
     }
     found = node(READ, *(tmp_path / name for name in expected), folder=tmp_path)

@@ -54,8 +54,10 @@ class Shader:
         return bool(self.description["varies"])
 
 
-def shader_of(m: Reflectance, language: str = ".glsl", function: str | None = None) -> Shader:
+def shader_of(m: Reflectance, language: str = ".glsl", function: str | None = None, with_texels: bool = True) -> Shader:
     """The shader of `m` in a language of `LANGUAGES`; the function is called `brdf_NAME` unless `function` names it.
+
+    Without texels, no textures are described: whoever fills them does that.
 
     Raises ReflectanceError for what has no formula (bake it first), or too large textures or too many; ParameterError
     for a function name that is none; FormulaError or ParameterError for numbers beyond single precision.
@@ -77,7 +79,7 @@ def shader_of(m: Reflectance, language: str = ".glsl", function: str | None = No
         raise ParameterError(f"the function's name must differ from the parameters' {', '.join(sorted(taken))}")
     if sum(len(sampled.names) for sampled in body.textures) > MOST_TEXTURES:
         raise ReflectanceError(f"{m.name} has more than the {MOST_TEXTURES} textures that graphics cards bind; bake it")
-    textures, texels = _textures(m, body)
+    textures, texels = _textures(m, body) if with_texels else ([], b"")
     description: dict[str, Any] = {
         "version": VERSION,
         "language": language[1:],

@@ -1,27 +1,49 @@
-/** The package's own files: safetensors whose header carries a shader (see `brdf.shaders.embedded`). */
+// The package's own files: safetensors whose header carries a shader (see brdf.shaders.embedded).
 
 import { bytesOf, stem, textOf, unzipped } from "./bytes.js";
 
-const LARGEST_HEADER = 100e6;  // the format's bound
+/** The bound that the format sets. */
+const LARGEST_HEADER = 100e6;
+
 const LARGEST_SHADER = 4e6;
+
+/** Schema of the headers that this reads. */
 const SCHEMA = 1;
-const BYTES = { F64: 8, F32: 4, F16: 2, U64: 8, I64: 8, U32: 4, I32: 4, U16: 2, I16: 2, U8: 1, I8: 1, BOOL: 1 };
+
+/** @type {Record<string, number>} */
+const SIZES = { F64: 8, F32: 4, F16: 2, U64: 8, I64: 8, U32: 4, I32: 4, U16: 2, I16: 2, U8: 1, I8: 1, BOOL: 1 };
+
+/** @type {Record<string, number>} */
 const CHANNELS = { RED: 1, RG: 2, RGBA: 4 };
 
-/** @typedef {{dtype: string, shape: number[], bytes: Uint8Array}} Tensor */
+/** @typedef {{dtype: string, bytes: Uint8Array<ArrayBuffer>}} Tensor */
 
-/** @type {(buffer: ArrayBuffer, name: string, library: import("./bytes.js").Library) => Promise<import("./bytes.js").Parsed>} */
-export const parse = async (buffer, name, library) => {
+/** @param {Uint8Array} head */
+export function recognises(head) {
+    return head[8] === 0x7b && new DataView(head.buffer, head.byteOffset).getUint32(4, true) === 0;
+}
+
+/**
+ * Throws an Error of one sentence for what is no whole file, or carries no shader.
+ * @param {ArrayBuffer} buffer
+ * @param {string} name
+ * @returns {Promise<import("./bytes.js").Parsed>}
+ */
+export async function parse(buffer, name) {
     const { metadata, tensors } = contents(buffer, name);
     let header;
     try {
         header = JSON.parse(metadata.brdf);
     } catch {
-        throw new Error(`${name}: a safetensors file, but not one of brdf's (its header is missing).`);
+        throw new Error(`${name} is a safetensors file, but not one of brdf's: its header is missing.`);
     }
     if (header.schema > SCHEMA) throw new Error(`${name} was written by a newer brdf; make the page with that one.`);
-    if (!header.shader) throw new Error(`${name} carries no shader: an earlier brdf wrote it, or it has no formula. ` +
-        "Save it again, or bake it: brdf convert FILE new.safetensors --as slice-stack");
+    if (!header.shader) {
+        throw new Error(
+            `${name} carries no shader: an earlier brdf wrote it, or it has no formula. Save it again, or bake it: ` +
+                "brdf convert FILE baked.safetensors --as slice-stack.",
+        );
+    }
     try {
         const packed = bytesOf(header.shader);
         const { text, description, nbytes, isotropic } = JSON.parse(textOf(await unzipped(packed, LARGEST_SHADER)));
@@ -29,103 +51,120 @@ export const parse = async (buffer, name, library) => {
         const shader = { ...description, textures, name: description.name || stem(name) };
         return { shader, text: String(text), texels, nbytes, isotropic, kind: header.kind };
     } catch (error) {
-        throw new Error(`${name}: its shader cannot be read (${error instanceof Error ? error.message : error}).`);
+        const why = error instanceof Error ? error.message : error;
+        throw new Error(`${name}: the shader in it cannot be read (${why}); save the file again.`);
     }
-};
+}
 
-/** Header and tensors; every size is checked against the file.
- * @type {(buffer: ArrayBuffer, name: string) => {metadata: Record<string, string>, tensors: Map<string, Tensor>}} */
-const contents = (buffer, name) => {
+/**
+ * Header and tensors; every size is checked against the file.
+ * @param {ArrayBuffer} buffer
+ * @param {string} name
+ */
+function contents(buffer, name) {
     const size = buffer.byteLength;
     if (size < 8) throw new Error(`${name} has ${size} bytes, too few for a safetensors file (8).`);
     const length = Number(new DataView(buffer).getBigUint64(0, true));
-    if (length > LARGEST_HEADER || length + 8 > size)
-        throw new Error(`${name} claims a header of ${length} bytes in a file of ${size}; it is truncated, or not a safetensors file.`);
+    if (length > Math.min(LARGEST_HEADER, size - 8)) {
+        const wrong = "it is truncated, or no safetensors file";
+        throw new Error(`${name} claims a header of ${length} bytes in a file of ${size}: ${wrong}.`);
+    }
     let header;
     try {
         header = JSON.parse(textOf(new Uint8Array(buffer, 8, length)));
     } catch {
         throw new Error(`${name} is not a safetensors file: its header is not JSON.`);
     }
+    const start = 8 + length;
     const { __metadata__: metadata, ...entries } = header;
+    /** @type {Map<string, Tensor>} */
     const tensors = new Map();
-    for (const [key, entry] of Object.entries(entries)) {
-        const { dtype, shape, data_offsets: [start, end] = [0, -1] } = /** @type {any} */ (entry);
-        const bytes = shape?.reduce?.((/** @type {number} */ product, /** @type {number} */ n) => product * n,
-            BYTES[/** @type {keyof BYTES} */ (dtype)]);
-        if (!(start >= 0 && end >= start && end - start === bytes && end <= size - 8 - length))
-            throw new Error(`${name}: its tensor '${key}' claims bytes ${start} to ${end} of ${size - 8 - length}; fetch it again.`);
-        tensors.set(key, { dtype, shape, bytes: new Uint8Array(buffer, 8 + length + start, end - start) });
+    for (const [key, { dtype, shape, data_offsets: place }] of Object.entries(entries)) {
+        const [from, to] = Array.isArray(place) ? place : [NaN, NaN];
+        const bytes = Array.isArray(shape) ? shape.reduce((product, n) => product * n, SIZES[dtype]) : NaN;
+        if (!(from >= 0 && to >= from && to - from === bytes && start + to <= size)) {
+            const claim = `bytes ${from} to ${to} of ${size - start}`;
+            throw new Error(`${name}: its tensor '${key}' claims ${claim}; fetch the file again.`);
+        }
+        tensors.set(key, { dtype, bytes: new Uint8Array(buffer, start + from, bytes) });
     }
     return { metadata: metadata ?? {}, tensors };
-};
+}
 
-/** The textures as they are uploaded, and their texels one after the other.
- * @type {(textures: any[], tensors: Map<string, Tensor>) => {textures: any[], texels: ArrayBuffer}} */
-const uploads = (textures, tensors) => {
+/**
+ * The textures as they are uploaded, and their texels one after the other.
+ * @param {any[]} textures
+ * @param {Map<string, Tensor>} tensors
+ */
+function uploads(textures, tensors) {
     const parts = textures.map((texture) => texelsOf(texture, tensors));
-    const texels = new Uint8Array(parts.reduce((sum, part) => sum + padded(part.length), 0));
-    let offset = 0;
-    const placed = textures.map(({ stored, ...texture }, index) => {
-        const bytes = parts[index].length;
+    const padded = (/** @type {Uint8Array} */ { length }) => length + (-length & 3);
+    const texels = new Uint8Array(parts.reduce((sum, part) => sum + padded(part), 0));
+    let end = 0;
+    const placed = textures.map(({ stored: _, ...texture }, index) => {
+        const offset = end;
         texels.set(parts[index], offset);
-        offset += padded(bytes);
-        return { ...texture, offset: offset - padded(bytes), bytes };
+        end += padded(parts[index]);
+        return { ...texture, offset, bytes: parts[index].length };
     });
     return { textures: placed, texels: texels.buffer };
-};
+}
 
-/** @type {(bytes: number) => number} */
-const padded = (bytes) => bytes + (-bytes & 3);
-
-/** @type {(texture: any, tensors: Map<string, Tensor>) => Uint8Array} */
-const texelsOf = ({ size, format, stored }, tensors) => {
-    const tensor = tensors.get(stored.tensor);
-    if (!tensor) throw new Error(`there is no tensor '${stored.tensor}'`);
-    const pixels = size.reduce((/** @type {number} */ product, /** @type {number} */ n) => product * n, 1);
-    const source = numbers(tensor), width = source.length / pixels;
-    const given = stored.packing ? 1 : stored.channels, first = stored.first ?? 0;
-    if (!(width % 1 === 0 && given >= 1 && first >= 0 && first + given <= width))
+/**
+ * One texture's texels, from the tensor that `stored` names.
+ * @param {{size: number[], format: string, stored: any}} texture
+ * @param {Map<string, Tensor>} tensors
+ */
+function texelsOf({ size, format, stored }, tensors) {
+    const { dtype, numbers } = numbersOf(tensors, stored.tensor);
+    const { packing, first = 0, channels: given = 1 } = stored;
+    const pixels = size.reduce((product, n) => product * n, 1);
+    const width = numbers.length / pixels;
+    if (!(Number.isInteger(width) && first >= 0 && given >= 1 && first + given <= width)) {
         throw new Error(`tensor '${stored.tensor}' does not fill ${size.join(" x ")} texels`);
-    if (stored.packing === "words") return new Uint8Array(Uint32Array.from(source, (word) => word | (3 << 30)).buffer);
-    if (stored.packing) return sharedExponents(source);
-    const levels = stored.levels ? numbers(/** @type {Tensor} */ (tensors.get(stored.levels))) : null;
-    const channels = CHANNELS[/** @type {keyof CHANNELS} */ (format)];
-    const made = levels ? new Float32Array(pixels * channels) : empty(tensor.dtype, pixels * channels);
-    if (channels > given) made.fill(levels ? 1 : one(tensor.dtype));
-    for (let pixel = 0; pixel < pixels; pixel++)
-        for (let c = 0; c < given; c++) {
-            const number = source[pixel * width + first + c];
-            made[pixel * channels + c] = levels ? levels[number * given + c] : number;
-        }
-    return new Uint8Array(made.buffer);
-};
-
-/** A tensor's numbers, half precision as its bits. @type {(tensor: Tensor) => ArrayLike<number> & Iterable<number>} */
-const numbers = ({ dtype, bytes }) => {
-    const copy = bytes.slice().buffer;  // aligned, as the file may not be
-    switch (dtype) {
-        case "F64": return new Float64Array(copy);
-        case "F32": return new Float32Array(copy);
-        case "F16": return new Uint16Array(copy);
-        case "U32": return new Uint32Array(copy);
-        case "U8": return new Uint8Array(copy);
-        default: throw new Error(`numbers of type ${dtype} are no texels`);
     }
-};
+    if (packing === "words") return new Uint8Array(Uint32Array.from(numbers, (word) => word | (3 << 30)).buffer);
+    if (packing) return new Uint8Array(sharedExponents(numbers).buffer);
+    const levels = stored.levels ? numbersOf(tensors, stored.levels).numbers : null;
+    const kept = dtype === "F64" || levels ? "F32" : dtype;
+    const channels = CHANNELS[format];
+    const texels = new ARRAYS[kept](pixels * channels);
+    if (channels > given) texels.fill(ONES[kept]);
+    for (let pixel = 0; pixel < pixels; pixel++) {
+        for (let c = 0; c < given; c++) {
+            const number = numbers[pixel * width + first + c];
+            texels[pixel * channels + c] = levels ? levels[number * given + c] : number;
+        }
+    }
+    return new Uint8Array(texels.buffer);
+}
 
-/** @type {(dtype: string, count: number) => Float32Array | Uint16Array | Uint8Array} */
-const empty = (dtype, count) =>
-    dtype === "F16" ? new Uint16Array(count) : dtype === "U8" ? new Uint8Array(count) : new Float32Array(count);
+/** Half precision is kept as its bits. */
+const ARRAYS = { F64: Float64Array, F32: Float32Array, F16: Uint16Array, U32: Uint32Array, U8: Uint8Array };
 
-/** What stands for 1. @type {(dtype: string) => number} */
-const one = (dtype) => (dtype === "F16" ? 0x3c00 : dtype === "U8" ? 255 : 1);
+/** What stands for 1 in a texture. */
+const ONES = { F64: 1, F32: 1, F16: 0x3c00, U32: 1, U8: 255 };
 
-/** Words of 9 bits a channel and a common exponent, as RGBA32F. @type {(words: ArrayLike<number>) => Uint8Array} */
-const sharedExponents = (words) => {
-    const made = new Float32Array(4 * words.length).fill(1);
-    for (let i = 0; i < words.length; i++)
-        for (let c = 0; c < 3; c++)
-            made[4 * i + c] = ((words[i] >>> (9 * c)) & 511) * 2 ** ((words[i] >>> 27) - 24);
-    return new Uint8Array(made.buffer);
-};
+/**
+ * @param {Map<string, Tensor>} tensors
+ * @param {string} name
+ */
+function numbersOf(tensors, name) {
+    const tensor = tensors.get(name);
+    if (!tensor || !(tensor.dtype in ARRAYS)) throw new Error(`there are no texels '${name}'`);
+    const dtype = /** @type {keyof ARRAYS} */ (tensor.dtype);
+    return { dtype, numbers: new ARRAYS[dtype](tensor.bytes.slice().buffer) };  // a copy, for files may not be aligned
+}
+
+/**
+ * Words of 9 bits a channel and a common exponent as RGBA.
+ * @param {ArrayLike<number>} words
+ */
+function sharedExponents(words) {
+    const texels = new Float32Array(4 * words.length).fill(1);
+    for (let i = 0; i < words.length; i++) {
+        const scale = 2 ** ((words[i] >>> 27) - 24);
+        for (let c = 0; c < 3; c++) texels[4 * i + c] = ((words[i] >>> (9 * c)) & 511) * scale;
+    }
+    return texels;
+}
