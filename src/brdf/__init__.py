@@ -25,6 +25,7 @@ _NAMES = {
     "convert": "conversion",
     "errors": "errors",
     "export": "export",
+    "fit": "fit",
     "io": "io",
     "load": "loading",
     "lobes": "combinators",

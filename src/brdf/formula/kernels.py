@@ -66,7 +66,7 @@ def kernel_for(reflectance: Any, real: str) -> Callable[..., int]:
             time.sleep(0.02)
         if compiler is not None and compiler.poll() is not None:
             del _compilers[module]
-        _kernels[key] = _loaded(module)
+        _kernels[key] = loaded(module)
     return _kernels[key]
 
 
@@ -81,7 +81,7 @@ def compile_ahead(reflectances: Sequence[Any], real: str = "float32") -> None:
     if not formulas or cores() == 1:
         return
     modules = [_module_of(m, real) for m in formulas]
-    program = f"import sys, {__name__} as kernels\nfor path in sys.argv[1:]: kernels._loaded(kernels.Path(path))"
+    program = f"import sys, {__name__} as kernels\nfor path in sys.argv[1:]: kernels.loaded(kernels.Path(path))"
     compiler = subprocess.Popen(
         [sys.executable, "-c", program, *map(str, modules)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )
@@ -104,7 +104,13 @@ def _module_of(reflectance: Any, real: str) -> Path:
 
 
 def _written(reflectance: Any, real: str) -> Path:
-    source = print_kernel(trace(reflectance), real, has_horizon=not reflectance.transmits, varies=reflectance.varies)
+    return stored(
+        print_kernel(trace(reflectance), real, has_horizon=not reflectance.transmits, varies=reflectance.varies)
+    )
+
+
+def stored(source: str) -> Path:
+    """The generated module of that source on disk, under its content's hash."""
     digest = hashlib.sha256((source + _environment()).encode()).hexdigest()[:24]
     path = cache_folder() / f"brdf_kernel_{digest}.py"
     if not path.exists():
@@ -115,7 +121,7 @@ def _written(reflectance: Any, real: str) -> Path:
     return path
 
 
-def _loaded(path: Path) -> Callable[..., int]:
+def loaded(path: Path) -> Callable[..., int]:
     """The kernel of a generated module: compiled, or loaded from numba's cache beside it."""
     spec = importlib.util.spec_from_file_location(path.stem, path)
     assert spec is not None

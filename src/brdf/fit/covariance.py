@@ -1,0 +1,81 @@
+"""How well the data determine what was fitted: standard errors, correlations, warnings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .parameters import Component
+
+Array = NDArray[np.float64]
+
+CORRELATED = 0.98
+"""Correlations beyond this are warned of."""
+
+VAGUE = 0.5
+"""So are standard errors above this share of the value."""
+
+BLIND = 1e-9
+"""Curvature along a direction, of unit diagonal, below which the data say nothing about it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Certainty:
+    """Standard errors and correlations of all numbers; NaN for what was held, or lies at a bound."""
+
+    errors: Array
+    """(P,) infinite for what the data do not determine"""
+    correlation: Array
+    """(P, P)"""
+    warnings: tuple[str, ...]
+
+
+def certainty(
+    components: list[Component], numbers: Array, free: NDArray[np.bool_], hessian: Array, meat: Array, residuals: int
+) -> Certainty:
+    """From J^T J and from sum J^T r r^T J, the products of the residuals' own slopes.
+
+    The sandwich H^-1 M H^-1 n / (n - p): it stays right where errors are not equally large everywhere, as those of
+    measurements are not. References: White1980.
+    """
+    low, high = (np.array([getattr(c, side) for c in components]) for side in ("low", "high"))
+    lowest = np.array([c.lowest for c in components])
+    at_bound = free & ((numbers <= np.maximum(low, lowest) * (1 + 1e-9)) | (numbers >= high * (1 - 1e-9)))
+    known = np.flatnonzero(free & ~at_bound & (np.diag(hessian) > 0))
+    errors = np.full(len(numbers), np.nan)
+    correlation = np.full((len(numbers), len(numbers)), np.nan)
+    errors[free & ~at_bound] = np.inf
+    warnings = [f"{components[k].name} lies at its bound {numbers[k]:g}" for k in np.flatnonzero(at_bound)]
+    if len(known):
+        scale = 1 / np.sqrt(np.diag(hessian)[known])
+        H = hessian[np.ix_(known, known)] * np.outer(scale, scale)
+        values, vectors = np.linalg.eigh(H)
+        seen = values > BLIND
+        inverse = (vectors[:, seen] / values[seen]) @ vectors[:, seen].T
+        M = meat[np.ix_(known, known)] * np.outer(scale, scale)
+        covariance = inverse @ M @ inverse * (residuals / max(residuals - len(known), 1))
+        deviation = np.sqrt(np.maximum(np.diag(covariance), 0))
+        blind = (vectors[:, ~seen] ** 2).sum(1) > 0.01
+        errors[known] = np.where(blind, np.inf, deviation * scale)
+        correlation[np.ix_(known, known)] = covariance / np.maximum(np.outer(deviation, deviation), 1e-300)
+        warnings += _warnings([components[k] for k in known], numbers[known], errors[known], correlation, known)
+    return Certainty(errors, correlation, tuple(warnings))
+
+
+def _warnings(
+    some: list[Component], numbers: Array, errors: Array, correlation: Array, known: NDArray[np.intp]
+) -> list[str]:
+    found = []
+    for c, value, error in zip(some, numbers, errors, strict=True):
+        if np.isinf(error):
+            found.append(f"{c.name} is not determined by the data")
+        elif error > VAGUE * max(abs(value), 1e-12):
+            found.append(f"{c.name} is hardly determined: {value:.3g} ± {error:.2g}")
+    for a in range(len(some)):
+        for b in range(a):
+            r = correlation[known[a], known[b]]
+            if abs(r) > CORRELATED and np.isfinite(errors[[a, b]]).all():
+                found.append(f"{some[b].name} and {some[a].name} are exchangeable (correlation {r:+.3f})")
+    return found

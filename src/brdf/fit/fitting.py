@@ -1,0 +1,232 @@
+"""`brdf.fit`: a model and data in, a `FitResult` out."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ParameterError, ReflectanceError, UnknownNameError
+from ..reflectance import Reflectance
+from .covariance import certainty
+from .equations import Equations, Normal, linear_components
+from .levenberg import Problem, Search, advance, begin
+from .losses import LOSSES, Loss, loss_named
+from .multistart import FEW, distinct, polish, run_rounds, start_points, stratified
+from .parameters import Component, components, grouped, with_values
+from .pictures import PictureEquations, radiances
+from .result import IMAGE, Estimate, FitResult, errors_of, residual_map
+from .robust import MOST, refine, require_known
+from .samples import GRAZING, Samples, samples_of
+from .template import MOST_LOBES, template_of
+
+Array = NDArray[np.float64]
+
+BUDGETS = {"quick": 4, "normal": 16, "thorough": 64}
+"""Searches that are begun."""
+
+MOST_STEPS = 200
+"""Of the last search, on all samples."""
+
+PROBES = 400
+"""Samples at which parameters that stand for each other are told."""
+
+
+def fit(
+    data: Any,
+    model: Any,
+    lobes: int | str = 1,
+    metric: str = "l2",
+    *,
+    diffuse: bool | None = None,
+    fixed: Sequence[str] = (),
+    grazing: float = GRAZING,
+    robust: str | None = None,
+    budget: str | int = "normal",
+    seed: int = 0,
+    say: Callable[[str], None] = lambda text: None,
+) -> FitResult:
+    """The numbers of a model with which it is nearest to data.
+
+    `data`: a reflectance or `Samples`. `model`: a class of `brdf.models`, its name, or a reflectance made of models,
+    whose numbers are one start. `lobes`: how many copies of it, 1 to 3, or "auto" for the number with the least BIC;
+    a Lambertian part is added where the model has none, or as `diffuse` says. `metric`: what is made small, "l2",
+    "log", "log-relative", "cube-root" or "image"; all are reported. `fixed`: parameters that keep their values, by full
+    name. `grazing`: degrees from the normal beyond which nothing is fitted. `robust`: "soft_l1", "huber" or "cauchy",
+    to count outliers less. `budget`: "quick", "normal" or "thorough" (4, 16, 64 starts), or the number of starts.
+    The same `seed` gives the same result. `say` is told what is under way.
+
+    Raises ParameterError, UnknownNameError, ReflectanceError.
+    """
+    begun = time.perf_counter()
+    starts = _starts(budget)
+    if robust is not None:
+        require_known(robust)
+    if metric != IMAGE and metric not in LOSSES:
+        raise UnknownNameError("metric", metric, [*LOSSES, IMAGE])
+    if metric == IMAGE and (isinstance(data, Samples) or robust is not None):
+        raise ParameterError("the image metric needs a reflectance to make pictures of, and has no robust form")
+    samples = samples_of(data, grazing)
+    isotropic = not isinstance(data, Reflectance) or data.isotropic
+    pictures = radiances(data) if isinstance(data, Reflectance) else None
+    counts = range(1, MOST_LOBES + 1) if lobes == "auto" else [lobes]
+    results = []
+    for count in counts:
+        if not isinstance(count, int):
+            raise ParameterError(f'lobes must be 1 to {MOST_LOBES} or "auto", got {count!r}')
+        template = template_of(model, count, diffuse, isotropic)
+        name = model if isinstance(model, str) else getattr(model, "__name__", "") or _label(model)
+        say(f"{name}, {count} lobes" if count > 1 else name)
+        one = _Fit(template, samples, pictures, metric, fixed, robust, starts, seed, say)
+        results.append(one.result(name, count, begun))
+    return min(results, key=lambda r: r.bic)
+
+
+def _label(model: Any) -> str:
+    return str(getattr(model, "name", "") or type(model).__name__)
+
+
+def _starts(budget: str | int) -> int:
+    if isinstance(budget, str) and budget not in BUDGETS:
+        raise UnknownNameError("budget", budget, BUDGETS)
+    starts = BUDGETS[budget] if isinstance(budget, str) else budget
+    if not 1 <= starts <= 4096:
+        raise ParameterError(f"a fit begins 1 to 4096 searches, got {starts}")
+    return starts
+
+
+class _Fit:
+    """One template fitted to one set of samples."""
+
+    def __init__(
+        self, template: Reflectance, samples: Samples, pictures: Array | None, metric: str, fixed: Sequence[str],
+        robust: str | None, starts: int, seed: int, say: Callable[[str], None],
+    ) -> None:  # fmt: skip
+        if not template.has_formula or template.transmits:
+            raise ReflectanceError(f"{template.name} has no formula of reflection, which a fit needs")
+        self.template, self.samples, self.pictures = template, samples, pictures
+        self.metric, self.robust, self.starts, self.seed, self.say = metric, robust, starts, seed, say
+        self.loss: Loss = loss_named("l2" if metric == IMAGE else metric)
+        self.components = components(template)
+        self.free = _free(self.components, fixed)
+        self.linear = linear_components(template)
+
+    def result(self, name: str, lobes: int, begun: float) -> FitResult:
+        few = stratified(self.samples, self.loss, FEW, self.seed)
+        # Colours are solved for in a quadratic loss with the slope of the wanted one at the data.
+        quadratic = few if self.loss.quadratic else _linearised(few, self.loss)
+        equations = Equations(self.template, quadratic, LOSSES["l2"])
+        self.free &= ~_interchangeable(self.template, few, self.components, self.linear & self.free, self.seed)
+        problem = Problem(self.components, self.free, self.linear & self.free)
+        points = start_points(self.components, self.free, self.starts, self.seed)
+        self.say(f"{name}: {len(points)} starts")
+        searches = run_rounds(problem, equations, points)
+        if not searches:
+            raise ParameterError(f"no start of {name} gives finite values; start from parameters that do")
+        numbers, agreeing = self._finished(problem, searches, few)
+        return self._described(name, lobes, numbers, agreeing, begun)
+
+    def _finished(self, problem: Problem, searches: list[Search], few: Samples) -> tuple[Array, int]:
+        """The best numbers on all samples, and how many searches agree on them."""
+        candidates = distinct(searches)
+        agreeing = sum(s.cost <= searches[0].cost * 1.001 for s in searches)
+        joint = problem
+        if not self.loss.quadratic or self.metric == IMAGE:
+            joint = replace(problem, linear=np.zeros_like(problem.linear))
+            evaluate: Callable[[Array], Normal] = self._picture_equations() or Equations(self.template, few, self.loss)
+            candidates = [begin(joint, evaluate, s.numbers) for s in candidates]
+            for search in candidates:
+                advance(joint, evaluate, search, MOST_STEPS)
+            candidates.sort(key=lambda s: s.cost)
+        if self.metric == IMAGE:
+            return candidates[0].numbers, agreeing
+        if len(few) < len(self.samples):
+            self.say("polishing on all samples")
+            everything = Equations(self.template, self.samples, self.loss)
+            best = polish(joint, everything, distinct(candidates), MOST_STEPS, self.say)
+        else:
+            best = candidates[0]
+            exact = Equations(self.template, few, self.loss, "float64")
+            best = advance(joint, exact, begin(joint, exact, best.numbers), MOST_STEPS, 1e-12)
+        numbers = best.numbers
+        if self.robust is not None:
+            part = stratified(self.samples, self.loss, MOST, self.seed)
+            numbers = refine(problem, Equations(self.template, part, self.loss), numbers, self.robust)
+        return numbers, agreeing
+
+    def _picture_equations(self) -> PictureEquations | None:
+        return PictureEquations(self.template, self.pictures) if self.metric == IMAGE and self.pictures is not None else None
+
+    def _described(self, name: str, lobes: int, numbers: Array, agreeing: int, begun: float) -> FitResult:
+        made = with_values(self.template, grouped(numbers, self.components))
+        samples, loss = self.samples, self.loss
+        made.named(f"{samples.name} by {name}" if samples.name else name, f"fitted to {samples.source or samples.name}")
+        fitted = np.asarray(made(samples.wi, samples.wo))
+        cosine = samples.wi[:, 2:]
+        residual = loss.scale(fitted * cosine) - loss.scale(samples.values * cosine)
+        normal = Equations(self.template, samples, loss)(numbers)
+        meat = Equations(self.template, samples.reweighted(samples.weight**2 * residual**2), loss)(numbers).hessian
+        sure = certainty(self.components, numbers, self.free, normal.hessian, meat, 3 * len(samples))
+        states = [
+            "held" if not free else "at bound" if np.isnan(error) else "free"
+            for free, error in zip(self.free, sure.errors, strict=True)
+        ]
+        estimates = tuple(
+            Estimate(c.name, float(v), float(e), state)
+            for c, v, e, state in zip(self.components, numbers, sure.errors, states, strict=True)
+        )
+        count = 3 * len(samples)
+        bic = count * np.log(max(2 * normal.cost, 1e-300) / count) + int(self.free.sum()) * np.log(count)
+        return FitResult(
+            made, samples.name, name, lobes, self.metric, estimates, sure.correlation, sure.warnings,
+            errors_of(samples, fitted, self.pictures, made), residual_map(samples, fitted), normal.cost, float(bic),
+            len(samples), samples.left_out, samples.grazing, self.starts, agreeing, self.seed,
+            time.perf_counter() - begun, self.robust or "",
+        )  # fmt: skip
+
+
+def _free(all_components: list[Component], fixed: Iterable[str]) -> NDArray[np.bool_]:
+    known = {c.parameter for c in all_components}
+    for name in fixed:
+        if name not in known:
+            raise UnknownNameError("parameter", name, known)
+    return np.array([c.parameter not in set(fixed) for c in all_components])
+
+
+def _linearised(samples: Samples, loss: Loss) -> Samples:
+    """With the weights that make a quadratic loss of f cos near the data what `loss` is."""
+    cosine = samples.wi[:, 2:]
+    slope = np.asarray(loss.slope(samples.values * cosine), np.float64)
+    return samples.reweighted(samples.weight * slope**2)
+
+
+def _interchangeable(
+    m: Reflectance, samples: Samples, all_components: list[Component], linear: NDArray[np.bool_], seed: int
+) -> NDArray[np.bool_]:
+    """(P,) numbers that do nothing that another does not do as well, wherever one looks: they are held.
+
+    Of a linear and another the other is held (a normalisation beside a scale), else the later one.
+    """
+    part = samples[np.linspace(0, len(samples) - 1, min(PROBES, len(samples))).astype(np.intp)]
+    equations = Equations(m, part, LOSSES["l2"])
+    everything = np.ones(len(all_components), np.bool_)
+    held = np.zeros(len(all_components), np.bool_)
+    alike: list[set[tuple[int, int]]] = []
+    for point in start_points(all_components, everything, 4, seed)[1:3]:
+        found = set()
+        for channel, rows in enumerate(equations.rows_at(point)):
+            ids, J = equations.active(channel), rows[:-1]
+            length = np.linalg.norm(J, axis=1)
+            J = J[length > 0] / length[length > 0, None]
+            kept = np.array(ids)[length > 0]
+            for a, b in zip(*np.nonzero(np.triu(np.abs(J @ J.T) > 1 - 1e-12, 1)), strict=True):
+                found.add((int(kept[a]), int(kept[b])))
+        alike.append(found)
+    for a, b in sorted(alike[0] & alike[1]):
+        if not held[a] and not held[b]:
+            held[a if linear[b] and not linear[a] else b] = True
+    return held

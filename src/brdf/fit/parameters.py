@@ -1,0 +1,139 @@
+"""The numbers of a reflectance that a fit may change, and the coordinates in which it searches for them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..combinators.sums import Scaled, Sum
+from ..errors import ReflectanceError
+from ..formula.trace import component_names
+from ..models import EnergyCompensated, Model
+from ..parameters import Parameter
+from ..reflectance import Reflectance
+
+Array = NDArray[np.float64]
+
+WIDE = 20.0
+"""A non-negative parameter whose upper bound exceeds its lower one, or its default, by more is searched by its
+logarithm."""
+FLOOR = 1e-4
+"""What stands for a lower bound of 0 on a logarithmic scale, in parts of the default."""
+REACH = 30.0
+"""Factor about the default within which an unbounded scale starts."""
+
+
+@dataclass(frozen=True)
+class Component:
+    """One number: a parameter, or one channel of a colour."""
+
+    name: str
+    parameter: str
+    """Full name of the parameter it is of."""
+    channel: int
+    low: float
+    high: float
+    default: float
+    is_colour: bool
+    is_log: bool
+    """Whether its coordinate is its logarithm, else the number itself."""
+
+    def to_coordinate(self, value: float) -> float:
+        return math.log(max(value, self.lowest)) if self.is_log else value
+
+    def to_value(self, coordinate: float) -> float:
+        return min(max(math.exp(coordinate), self.low), self.high) if self.is_log else coordinate
+
+    @property
+    def lowest(self) -> float:
+        """The least value that its coordinate reaches."""
+        return max(self.low, FLOOR * self._typical) if self.is_log else self.low
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Of the coordinate."""
+        if not self.is_log:
+            return self.low, self.high
+        return math.log(self.lowest), math.log(self.high) if math.isfinite(self.high) else math.inf
+
+    @property
+    def start_range(self) -> tuple[float, float]:
+        """Of the coordinate, where a search may begin: within the bounds and not absurdly far from the default."""
+        low, high = self.bounds
+        middle = self.to_coordinate(self.default)
+        spread = math.log(REACH) if self.is_log else max(1.0, abs(self.default))
+        if self.is_log and self.low > 0 and math.isfinite(self.high):
+            spread = high - low
+        low, high = max(low, middle - spread), min(high, middle + spread)
+        margin = 0.02 * (high - low)  # a search that begins at a bound may never leave it
+        return low + margin, high - margin
+
+    @property
+    def _typical(self) -> float:
+        return abs(self.default) or 1.0
+
+
+def components(m: Reflectance) -> list[Component]:
+    """All numbers of a reflectance, in the order in which its kernels take them.
+
+    Raises ReflectanceError for a reflectance without declared parameters.
+    """
+    declared = _declared(m)
+    found = []
+    for name, value in m.values.items():
+        if name not in declared:
+            raise ReflectanceError(f"{m.name or type(m).__name__} has numbers without bounds ({name}); fit a model")
+        numbers = np.atleast_1d(np.asarray(value, np.float64))
+        for channel, component in enumerate(component_names(name, len(numbers))):
+            found.append(_component(component, name, channel, declared[name], float(numbers[channel]), len(numbers)))
+    return found
+
+
+def _component(name: str, full: str, channel: int, declared: Parameter, value: float, size: int) -> Component:
+    low, high = declared.low, declared.high
+    reference = low if low > 0 else abs(value) or 1.0
+    is_log = low >= 0 and (high / reference if math.isfinite(high) else math.inf) > WIDE
+    is_log = is_log and not (size == 3 and low == 0 and not math.isfinite(high))  # the scale of a lobe may be 0
+    return Component(name, full, channel, low, high, value, size == 3, is_log)
+
+
+def _declared(m: Reflectance) -> dict[str, Parameter]:
+    """The declarations of all parameters in force, by full name."""
+    found: dict[str, Parameter] = dict(m.declarations()) if isinstance(m, (Model, Scaled)) else {}
+    for key, child in m.children.items():
+        found |= {f"{key}_{name}": parameter for name, parameter in _declared(child).items()}
+    return found
+
+
+def with_values(m: Reflectance, values: Mapping[str, Any]) -> Reflectance:
+    """The same reflectance with other values, all of them by full name. Raises ReflectanceError."""
+
+    def of(child: str) -> dict[str, Any]:
+        return {name.removeprefix(f"{child}_"): v for name, v in values.items() if name.startswith(f"{child}_")}
+
+    match m:
+        case Model():
+            made: Reflectance = m.replaced(**values)
+        case Scaled():
+            made = Scaled(with_values(m.children["base"], of("base")), values["scale"])
+        case Sum():
+            made = Sum([with_values(child, of(key)) for key, child in m.children.items()])
+        case EnergyCompensated():
+            base = with_values(m.children["base"], of("base"))
+            made = EnergyCompensated(base)  # type: ignore[arg-type]
+        case _:
+            raise ReflectanceError(f"{m.name or type(m).__name__} is no model; fit a model, or a sum of scaled ones")
+    return made
+
+
+def grouped(numbers: Array, all_components: list[Component]) -> dict[str, Any]:
+    """Numbers in order of the components -> values by parameter, within their bounds."""
+    found: dict[str, list[float]] = {}
+    for number, component in zip(numbers, all_components, strict=True):
+        found.setdefault(component.parameter, []).append(min(max(float(number), component.low), component.high))
+    return {name: value[0] if len(value) == 1 else tuple(value) for name, value in found.items()}

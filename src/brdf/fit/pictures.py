@@ -1,0 +1,139 @@
+"""The image-space loss: spheres under point lights and in an environment, compared pixel by pixel.
+
+Pixels are compared by the cube root of their radiance, near the eye's response (Fores2012). The environment is a studio
+of soft lights given by a formula, sampled at directions that are the same for every reflectance.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..geometry.directions import from_spherical, normalized
+from ..metrics import sphere_lights, sphere_pairs
+from ..reflectance import Reflectance
+from .equations import Equations, Normal
+from .losses import LOSSES
+from .samples import Samples
+
+Array = NDArray[np.floating[Any]]
+
+POINT_ANGLES = (0.0, 30.0, 60.0, 90.0, 120.0)
+"""Degrees between viewer and light."""
+POINT_SIZE, STUDIO_SIZE = 32, 20
+"""Pixels across."""
+STUDIO_SAMPLES = 128
+"""Directions from which light of the studio arrives at each pixel."""
+STUDIO_LIGHTS = (((0.5, 0.6, 0.6), 40.0, 0.5), ((-0.8, 0.3, 0.5), 12.0, 0.3), ((0.0, -0.4, -0.9), 6.0, 0.2))
+"""Axis (viewer's frame), concentration and share of each light: lobes exp(k (cos - 1)), the rest falls off around."""
+STUDIO_IRRADIANCE = 2 * math.pi
+"""Of a surface that faces all of it: twice what makes a white diffuser show 1."""
+
+DARKEST = 1e-6
+"""Radiance that counts as black: the cube root is too steep below."""
+
+
+class Pixels(NamedTuple):
+    """Pairs of directions, pixel by pixel."""
+
+    wi: Array
+    """(N, 3)"""
+    wo: Array
+    """(N, 3)"""
+    share: Array
+    """(N,) what f cos(theta_i) of a pair adds to its pixel's radiance"""
+    first: NDArray[np.intp]
+    """(M,) the first pair of each pixel"""
+    weight: Array
+    """(M,) of each pixel; they sum to 1, half for either kind of light"""
+
+
+@functools.lru_cache(maxsize=1)
+def pixels() -> Pixels:
+    """All pixels of all pictures."""
+    point = sphere_pairs(POINT_SIZE, POINT_ANGLES)
+    lit = len(sphere_lights(POINT_SIZE, POINT_ANGLES))
+    wi, wo, first = _studio()
+    wi, wo = (np.concatenate([a, b]) for a, b in ((point[0], wi), (point[1], wo)))
+    share = np.concatenate([np.full(lit, math.pi), np.full(len(wi) - lit, STUDIO_IRRADIANCE / STUDIO_SAMPLES)])
+    weight = np.concatenate([np.full(lit, 0.5 / lit), np.full(len(first), 0.5 / len(first))])
+    return Pixels(wi, wo, share, np.concatenate([np.arange(lit), lit + first]), weight)
+
+
+def _studio() -> tuple[Array, Array, NDArray[np.intp]]:
+    """Lit pairs of a sphere in the studio, and where each pixel's begin."""
+    light = np.concatenate([_lobe(*lamp) for lamp in STUDIO_LIGHTS])
+    axis = (2 * np.arange(STUDIO_SIZE) + 1) / STUDIO_SIZE - 1
+    x, y = (a.ravel() for a in np.meshgrid(axis, axis))
+    inside = x * x + y * y < 0.98
+    x, y = x[inside], y[inside]
+    normal = np.stack([x, y, np.sqrt(1 - x * x - y * y)], -1)
+    tangent = normalized(np.stack([normal[:, 2], 0 * x, -x], -1))
+    frame = np.stack([tangent, np.cross(normal, tangent), normal], 1)
+    wi = np.einsum("pij,kj->pki", frame, light)
+    lit = wi[..., 2] > 1e-3
+    counts = lit.sum(1)
+    seen = counts > 0
+    wo = np.broadcast_to(frame[:, None, :, 2], wi.shape)
+    first = np.concatenate([[0], np.cumsum(counts[seen])[:-1]])
+    return wi[lit].astype(np.float32), wo[lit].astype(np.float32), first
+
+
+def _lobe(axis: tuple[float, float, float], concentration: float, share: float) -> Array:
+    """Directions distributed as one light of the studio, on a spiral."""
+    count = round(share * STUDIO_SAMPLES)
+    u = (np.arange(count) + 0.5) / count
+    cosine = 1 + np.log(1 - u * (1 - math.exp(-2 * concentration))) / concentration
+    local = from_spherical(np.arccos(np.clip(cosine, -1, 1)), 2 * math.pi * (math.sqrt(5) - 1) / 2 * np.arange(count))
+    z = np.asarray(axis) / np.linalg.norm(axis)
+    x = normalized(np.cross([0.0, 1.0, 0.0], z))
+    return np.asarray(local @ np.stack([x, np.cross(z, x), z]))
+
+
+def radiances(m: Reflectance) -> Array:
+    """(M, 3) of all pixels."""
+    p = pixels()
+    return np.asarray(np.add.reduceat(m.f_cos(p.wi, p.wo).astype(np.float64) * p.share[:, None], p.first))
+
+
+def picture_error(reference: Array, other: Array) -> float:
+    """RMS difference of the cube roots of radiances (M, 3), point lights and environment counting alike."""
+    difference = np.square(_compressed(reference) - _compressed(other))
+    return math.sqrt(float(np.einsum("m,mc->", pixels().weight, difference)) / 3)
+
+
+def _compressed(radiance: Array) -> Array:
+    return np.cbrt(np.maximum(radiance, DARKEST))
+
+
+class PictureEquations:
+    """As `Equations`, for the pixels of pictures."""
+
+    def __init__(self, m: Reflectance, reference: Array) -> None:
+        """`reference`: radiances (M, 3)."""
+        p = pixels()
+        self._target = _compressed(reference)
+        self._parameters = sum(np.size(v) for v in m.values.values())
+        nothing = np.zeros(p.wi.shape)
+        self._values = Equations(m, Samples(p.wi, p.wo, nothing, nothing + 1), LOSSES["l2"], "float64")
+        self.size = self._target.size
+
+    def __call__(self, numbers: NDArray[np.float64]) -> Normal:
+        p = pixels()
+        gradient = np.zeros(self._parameters)
+        hessian, cost = np.zeros((self._parameters, self._parameters)), 0.0
+        for channel, rows in enumerate(self._values.rows_at(numbers)):
+            summed = np.add.reduceat(rows * p.share, p.first, axis=1)
+            radiance = np.maximum(summed[-1], DARKEST)
+            root = np.cbrt(radiance)
+            residual = np.sqrt(p.weight) * (root - self._target[:, channel])
+            slope = np.sqrt(p.weight) * np.where(summed[-1] > DARKEST, root / (3 * radiance), 0)
+            J, ids = summed[:-1] * slope, list(self._values.active(channel))
+            hessian[np.ix_(ids, ids)] += J @ J.T
+            gradient[ids] += J @ residual
+            cost += 0.5 * float(residual @ residual)
+        return Normal(cost, gradient, hessian)

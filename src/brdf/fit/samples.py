@@ -1,0 +1,140 @@
+"""What a model is fitted to: values at pairs of directions, each with a weight."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ..color import rgb_weights
+from ..errors import ParameterError, ReflectanceError
+from ..formula.engine import check_lengths
+from ..geometry.directions import from_half_difference, from_spherical
+from ..metrics import direction_pairs
+from ..reflectance import Reflectance
+from ..representations.tables.merl import LAYOUT
+from ..representations.tables.table import Table
+
+Array = NDArray[np.floating[Any]]
+
+GRAZING = 80.0
+"""Degrees from the normal beyond which values are left out: measurements are least reliable there (Ngan2005)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Values [1/sr] at pairs of directions; invalid ones are not among them."""
+
+    wi: Array
+    """(N, 3)"""
+    wo: Array
+    """(N, 3)"""
+    values: Array
+    """(N, 3) f without the cosine [1/sr]"""
+    weight: Array
+    """(N, 3) of squared residuals, with mean 1"""
+    name: str = ""
+    source: str = ""
+    grazing: float = 90.0
+    """Degrees from the normal beyond which nothing is fitted."""
+    left_out: int = 0
+    """Pairs that were given and are not used: invalid, or beyond the grazing angle."""
+
+    def __len__(self) -> int:
+        return len(self.wi)
+
+    @classmethod
+    def of(
+        cls, wi: ArrayLike, wo: ArrayLike, values: ArrayLike, weight: ArrayLike = 1.0, grazing: float = GRAZING,
+        name: str = "", source: str = "",
+    ) -> Samples:  # fmt: skip
+        """From unit directions (N, 3), values (N, 3) or (N,) in 1/sr and weights that broadcast to them.
+
+        Rows with a value that is no number or below zero, without weight, or with a direction beyond `grazing` degrees
+        are left out. Raises DirectionError, ParameterError for shapes that do not fit or when nothing is left.
+        """
+        if not 0 < grazing <= 90:
+            raise ParameterError(f"the grazing angle must lie in (0, 90] degrees, got {grazing:g}")
+        wi, wo, values = (np.asarray(a, np.float64) for a in (wi, wo, values))
+        if values.ndim == 1:
+            values = np.repeat(values[:, None], 3, 1)
+        if wi.ndim != 2 or wi.shape[1:] != (3,) or wo.shape != wi.shape or values.shape != wi.shape:
+            raise ParameterError(
+                f"samples need directions and values of shape (N, 3), got {wi.shape}, {wo.shape}, {values.shape}"
+            )
+        check_lengths(wi=wi, wo=wo)
+        weight = np.asarray(weight, np.float64)
+        weight = np.broadcast_to(weight[:, None] if weight.ndim == 1 else weight, values.shape)
+        least = max(math.cos(math.radians(grazing)), 1e-6)
+        with np.errstate(invalid="ignore"):
+            good = (values >= 0).all(1) & np.isfinite(values).all(1) & (weight >= 0).all(1) & (weight.sum(1) > 0)
+        good &= (wi[:, 2] >= least) & (wo[:, 2] >= least)
+        if not good.any():
+            raise ParameterError(f"{name or 'the data'} holds no valid value within {grazing:g} degrees of the normal")
+        weight = weight[good]
+        return cls(
+            wi[good].astype(np.float32), wo[good].astype(np.float32), values[good], weight / weight.mean(), name,
+            source, grazing, int(np.count_nonzero(~good)),
+        )  # fmt: skip
+
+    def __getitem__(self, rows: Any) -> Samples:
+        """Some of them."""
+        return replace(
+            self, wi=self.wi[rows], wo=self.wo[rows], values=self.values[rows], weight=self.weight[rows]
+        )
+
+    def reweighted(self, weight: Array) -> Samples:
+        """The same with other weights (N, 3)."""
+        return replace(self, weight=weight)
+
+
+def samples_of(data: Any, grazing: float = GRAZING) -> Samples:
+    """The samples that stand for some data.
+
+    A table of MERL's layout gives its measured bins, weighted by the solid angles that they stand for; any other
+    reflectance is evaluated at `metrics.direction_pairs`, without those where it holds no measurement; `Samples` stay
+    what they are. Raises ParameterError, ReflectanceError.
+    """
+    if isinstance(data, Samples):
+        return data
+    if not isinstance(data, Reflectance):
+        raise ParameterError(f"a fit needs a reflectance or Samples, got {type(data).__name__}")
+    if data.transmits:
+        raise ReflectanceError(f"{data.name or type(data).__name__} transmits; fits are of what is reflected")
+    if isinstance(data, Table) and data.layout == LAYOUT:
+        return _bins(data, grazing)
+    wi, wo, weight = direction_pairs(polar=64, difference=32, azimuth=48)
+    values = data.raw(wi, wo)
+    if isinstance(data, Table) and data.has_holes:
+        values = np.where(data.valid(wi, wo)[:, None], values, np.nan)
+    return Samples.of(wi, wo, values, weight, grazing, data.name, data.source)
+
+
+def _bins(table: Table, grazing: float) -> Samples:
+    """The measured bins of a MERL table; a bin's weight is the measure d wi d wo of the cell around its node."""
+    theta_h, theta_d, phi_d = (axis.ravel() for axis in table.layout.nodes())
+    # d wi d wo = 4 cos(theta_d) d omega_h d omega_d
+    weight = _cells(theta_h)[:, None] * (_cells(theta_d) * np.cos(theta_d))
+    i, j, k = np.nonzero(table.measured[:, :, :-1])
+    wi, wo = from_half_difference(theta_h[i], np.zeros(len(i)), theta_d[j], phi_d[k])
+    made = Samples.of(wi, wo, table.codes[i, j, k], weight[i, j], grazing, table.name, table.source)
+    return replace(made, left_out=table.measured[:, :, :-1].size - len(made))
+
+
+def _edges(nodes: Array) -> Array:
+    """Midpoints between nodes, with the first and the last node at the ends."""
+    return np.concatenate([nodes[:1], (nodes[1:] + nodes[:-1]) / 2, nodes[-1:]])
+
+
+def _cells(theta: Array) -> Array:
+    """Share of the sphere of each cell around nodes of a polar angle."""
+    return -np.diff(np.cos(_edges(theta)))
+
+
+def from_rows(angles: Array, spectra: Array, wavelengths: Array, grazing: float, name: str, source: str) -> Samples:
+    """From the rows of a goniometer: angles (N, 4) in radians and spectra (N, W) in 1/sr; each row counts the same."""
+    wi, wo = (from_spherical(angles[:, k], angles[:, k + 1]) for k in (0, 2))
+    return Samples.of(wi, wo, np.maximum(spectra @ rgb_weights(wavelengths), 0), 1.0, grazing, name, source)
