@@ -19,7 +19,7 @@ def minimise_quadratic(hessian: Array, gradient: Array, low: Array, high: Array)
     """
     scale = 1 / np.sqrt(np.maximum(np.diag(hessian), 1e-300))
     H, g = hessian * np.outer(scale, scale), gradient * scale
-    low, high = low / scale, high / scale
+    given, (low, high) = (low, high), (low / scale, high / scale)
     s = np.clip(np.zeros(len(g)), low, high)
     free = (low < s) & (s < high)
     for _ in range(10 * len(g) + 10):
@@ -43,7 +43,7 @@ def minimise_quadratic(hessian: Array, gradient: Array, low: Array, high: Array)
         if inward[worst] <= 1e-12 * (1 + float(np.abs(g).max())):
             break
         free[worst] = True
-    return np.asarray(s * scale)
+    return np.clip(s * scale, *given)
 
 
 def _solve(H: Array, g: Array) -> Array:

@@ -20,6 +20,9 @@ VAGUE = 0.5
 BLIND = 1e-9
 """Curvature along a direction, of unit diagonal, below which the data say nothing about it."""
 
+SILENT = 1e-14
+"""Squared relative effect of a number on the data, in parts of the largest, below which it has none."""
+
 
 @dataclass(frozen=True, eq=False)
 class Certainty:
@@ -43,12 +46,13 @@ def certainty(
     low, high = (np.array([getattr(c, side) for c in components]) for side in ("low", "high"))
     lowest = np.array([c.lowest for c in components])
     at_bound = free & ((numbers <= np.maximum(low, lowest) * (1 + 1e-9)) | (numbers >= high * (1 - 1e-9)))
-    known = np.flatnonzero(free & ~at_bound & (np.diag(hessian) > 0))
+    effect = np.diag(hessian) * np.maximum(np.abs(numbers), 1e-3) ** 2
+    known = np.flatnonzero(free & ~at_bound & (effect > SILENT * effect.max()))
     errors = np.full(len(numbers), np.nan)
     correlation = np.full((len(numbers), len(numbers)), np.nan)
     errors[free & ~at_bound] = np.inf
     warnings = [f"{components[k].name} lies at its bound {numbers[k]:g}" for k in np.flatnonzero(at_bound)]
-    if len(known):
+    if len(known) and np.isfinite(hessian).all() and np.isfinite(meat).all():
         scale = 1 / np.sqrt(np.diag(hessian)[known])
         H = hessian[np.ix_(known, known)] * np.outer(scale, scale)
         values, vectors = np.linalg.eigh(H)
@@ -60,6 +64,9 @@ def certainty(
         blind = (vectors[:, ~seen] ** 2).sum(1) > 0.01
         errors[known] = np.where(blind, np.inf, deviation * scale)
         correlation[np.ix_(known, known)] = covariance / np.maximum(np.outer(deviation, deviation), 1e-300)
+    unseen = np.isinf(errors) & ~np.isin(np.arange(len(numbers)), known)
+    warnings += [f"{components[k].name} is not determined by the data" for k in np.flatnonzero(unseen)]
+    if len(known):
         warnings += _warnings([components[k] for k in known], numbers[known], errors[known], correlation, known)
     return Certainty(errors, correlation, tuple(warnings))
 

@@ -22,7 +22,7 @@ from ..formula.trace import Program, component_names, trace
 from ..reflectance import Reflectance
 from ..threads import map_threads
 from .losses import Loss
-from .parameters import Component, components, grouped, with_values
+from .parameters import components, grouped, with_values
 from .samples import Samples
 
 Array = NDArray[np.float64]
@@ -68,7 +68,7 @@ class Rows:
 
 
 _rows: dict[tuple[Any, ...], Rows] = {}
-_kernels: dict[tuple[Any, ...], Callable[..., None]] = {}
+_kernels: dict[tuple[Any, ...], Callable[..., Any]] = {}
 _compiling = threading.Lock()
 
 
@@ -97,24 +97,6 @@ def _make_rows(m: Reflectance, loss: Loss) -> Rows:
     return Rows(program, tuple(channels), tuple(active), tuple(inputs.values()), tuple(symbols))
 
 
-def linear_components(m: Reflectance) -> NDArray[np.bool_]:
-    """(P,) which channels of colours f is linear in, all of them together: those that can be solved for."""
-    program = trace(m)
-    graph = program.graph
-    all_components = components(m)
-    symbols = {c.name: graph.symbol(c.name) for c in all_components}
-    linear: list[Expr] = []
-    found = np.zeros(len(all_components), np.bool_)
-    for parameter in dict.fromkeys(c.parameter for c in all_components if c.is_colour):
-        own = [k for k, c in enumerate(all_components) if c.parameter == parameter]
-        tried = [*linear, *(symbols[all_components[k].name] for k in own)]
-        slopes = [d for symbol in tried for d in derivative(program.outputs, symbol)]
-        if not set(reachable(slopes)) & set(tried):
-            linear = tried
-            found[own] = True
-    return found
-
-
 class Equations:
     """The normal equations of one model, loss and set of samples, as a function of the model's numbers."""
 
@@ -141,7 +123,7 @@ class Equations:
         return Normal(float(cost), gradient, hessian)
 
     def _compiled(self, numbers: Array) -> list[Array]:
-        kernel = _kernel(self._model, self._rows, self._real, len(self._data))
+        kernel = _kernel(self._rows, self._real)
         most = max(map(len, self._rows.channels))
         count = self._data.shape[1]
 
@@ -169,24 +151,20 @@ class Equations:
             textures = dict(with_values(self._model, grouped(numbers, self._components)).textures)
         outputs = [row for rows in self._rows.channels for row in rows]
         flat = iter(evaluate(outputs, symbols, textures))
-        return [
-            np.array([np.broadcast_to(next(flat), block.shape[1:]) for _ in rows]) for rows in self._rows.channels
-        ]
+        return [np.array([np.broadcast_to(next(flat), block.shape[1:]) for _ in rows]) for rows in self._rows.channels]
 
     def active(self, channel: int) -> Sequence[int]:
         """Which numbers the derivatives of a channel are with respect to, in the order of `rows_at`."""
         return self._rows.active[channel]
 
 
-def _kernel(m: Reflectance, rows: Rows, real: str, inputs: int) -> Callable[..., None]:
+def _kernel(rows: Rows, real: str) -> Callable[..., Any]:
     from ..formula.kernels import loaded, stored
     from ..formula.printers.normal_equations import print_normal_equations
 
     key = (rows, real)
     with _compiling:
         if key not in _kernels:
-            source = print_normal_equations(
-                rows.program.title, rows.channels, rows.inputs, rows.parameters, real
-            )
+            source = print_normal_equations(rows.program.title, rows.channels, rows.inputs, rows.parameters, real)
             _kernels[key] = loaded(stored(source))
     return _kernels[key]

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from ..errors import ParameterError, ReflectanceError, UnknownNameError
 from ..reflectance import Reflectance
 from .covariance import certainty
-from .equations import Equations, Normal, linear_components
+from .equations import Equations, Normal
 from .levenberg import Problem, Search, advance, begin
 from .losses import LOSSES, Loss, loss_named
-from .multistart import FEW, distinct, polish, run_rounds, start_points, stratified
+from .multistart import FEW, distinct, energy_of, polish, run_rounds, same, start_points, stratified
 from .parameters import Component, components, grouped, with_values
 from .pictures import PictureEquations, radiances
 from .result import IMAGE, Estimate, FitResult, errors_of, residual_map
@@ -24,7 +24,7 @@ from .robust import MOST, refine, require_known
 from .samples import GRAZING, Samples, samples_of
 from .template import MOST_LOBES, template_of
 
-Array = NDArray[np.float64]
+Array = NDArray[Any]
 
 BUDGETS = {"quick": 4, "normal": 16, "thorough": 64}
 """Searches that are begun."""
@@ -113,7 +113,7 @@ class _Fit:
         self.loss: Loss = loss_named("l2" if metric == IMAGE else metric)
         self.components = components(template)
         self.free = _free(self.components, fixed)
-        self.linear = linear_components(template)
+        self.linear = np.array([c.is_linear for c in self.components])
 
     def result(self, name: str, lobes: int, begun: float) -> FitResult:
         few = stratified(self.samples, self.loss, FEW, self.seed)
@@ -132,8 +132,9 @@ class _Fit:
 
     def _finished(self, problem: Problem, searches: list[Search], few: Samples) -> tuple[Array, int]:
         """The best numbers on all samples, and how many searches agree on them."""
-        candidates = distinct(searches)
-        agreeing = sum(s.cost <= searches[0].cost * 1.001 for s in searches)
+        energy = energy_of(few)
+        candidates = distinct(searches, energy)
+        agreeing = sum(same(s.cost, searches[0].cost, energy) for s in searches)
         joint = problem
         if not self.loss.quadratic or self.metric == IMAGE:
             joint = replace(problem, linear=np.zeros_like(problem.linear))
@@ -147,7 +148,7 @@ class _Fit:
         if len(few) < len(self.samples):
             self.say("polishing on all samples")
             everything = Equations(self.template, self.samples, self.loss)
-            best = polish(joint, everything, distinct(candidates), MOST_STEPS, self.say)
+            best = polish(joint, everything, candidates, MOST_STEPS)
         else:
             best = candidates[0]
             exact = Equations(self.template, few, self.loss, "float64")
@@ -159,7 +160,11 @@ class _Fit:
         return numbers, agreeing
 
     def _picture_equations(self) -> PictureEquations | None:
-        return PictureEquations(self.template, self.pictures) if self.metric == IMAGE and self.pictures is not None else None
+        return (
+            PictureEquations(self.template, self.pictures)
+            if self.metric == IMAGE and self.pictures is not None
+            else None
+        )
 
     def _described(self, name: str, lobes: int, numbers: Array, agreeing: int, begun: float) -> FitResult:
         made = with_values(self.template, grouped(numbers, self.components))
@@ -215,18 +220,16 @@ def _interchangeable(
     equations = Equations(m, part, LOSSES["l2"])
     everything = np.ones(len(all_components), np.bool_)
     held = np.zeros(len(all_components), np.bool_)
-    alike: list[set[tuple[int, int]]] = []
-    for point in start_points(all_components, everything, 4, seed)[1:3]:
-        found = set()
+    seen, alike = np.zeros((2, len(held), len(held)), np.intp)
+    for point in start_points(all_components, everything, 8, seed):
         for channel, rows in enumerate(equations.rows_at(point)):
-            ids, J = equations.active(channel), rows[:-1]
+            ids, J = np.array(equations.active(channel)), rows[:-1]
             length = np.linalg.norm(J, axis=1)
-            J = J[length > 0] / length[length > 0, None]
-            kept = np.array(ids)[length > 0]
-            for a, b in zip(*np.nonzero(np.triu(np.abs(J @ J.T) > 1 - 1e-12, 1)), strict=True):
-                found.add((int(kept[a]), int(kept[b])))
-        alike.append(found)
-    for a, b in sorted(alike[0] & alike[1]):
+            told = np.isfinite(length) & (length > 0)
+            ids, J = ids[told], J[told] / length[told, None]
+            seen[np.ix_(ids, ids)] += 1
+            alike[np.ix_(ids, ids)] += np.abs(J @ J.T) > 1 - 1e-12
+    for a, b in zip(*np.nonzero(np.triu((seen > 1) & (alike == seen), 1)), strict=True):
         if not held[a] and not held[b]:
             held[a if linear[b] and not linear[a] else b] = True
     return held

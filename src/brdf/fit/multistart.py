@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,16 +28,8 @@ FINALISTS = 3
 SAME = 1e-3
 """Relative difference of costs below which two searches count as having found the same minimum."""
 
-
-@dataclass(frozen=True)
-class Outcome:
-    """What a multi-start found."""
-
-    search: Search
-    costs: tuple[float, ...]
-    """On the few samples, of all searches, best first; those given up with the cost that they had then."""
-    agreeing: int
-    """Searches that ended in the same minimum as the best."""
+ROUNDING = 1e-10
+"""Of a cost in single precision, in parts of the energy: residuals of a model that fits are differences of values."""
 
 
 def stratified(samples: Samples, loss: Loss, count: int, seed: int) -> Samples:
@@ -59,8 +49,7 @@ def stratified(samples: Samples, loss: Loss, count: int, seed: int) -> Samples:
     first = np.random.default_rng(seed).random()
     chosen = np.unique(np.searchsorted(at, first + np.arange(count), side="left").clip(max=len(samples) - 1))
     kept = samples[chosen]
-    scaled = kept.weight / np.minimum(share[chosen] * count / share.sum(), 1)[:, None]
-    return kept.reweighted(scaled * (len(samples) / (count * scaled.mean() * len(kept) / count)) * 1.0)
+    return kept.reweighted(kept.weight / np.minimum(share[chosen] * count / share.sum(), 1)[:, None])
 
 
 def start_points(components: list[Component], free: NDArray[np.bool_], count: int, seed: int) -> list[Array]:
@@ -102,20 +91,27 @@ def run_rounds(problem: Problem, evaluate: Evaluate, starts: list[Array]) -> lis
     return sorted((s for s in searches if np.isfinite(s.cost)), key=lambda s: s.cost)
 
 
-def distinct(searches: list[Search], most: int = FINALISTS) -> list[Search]:
+def same(cost: float, best: float, energy: float) -> bool:
+    """Whether two costs are those of one minimum; `energy` is the cost of no reflectance at all."""
+    return cost <= best * (1 + SAME) + ROUNDING * energy
+
+
+def distinct(searches: list[Search], energy: float, most: int = FINALISTS) -> list[Search]:
     """The best searches that ended in different minima."""
     found: list[Search] = []
     for search in searches:
-        if not found or search.cost > found[-1].cost * (1 + SAME):
+        if not found or not same(search.cost, found[-1].cost, energy):
             found.append(search)
     return found[:most]
 
 
-def polish(
-    problem: Problem, equations: Equations, searches: list[Search], steps: int, say: Callable[[str], None]
-) -> Search:
+def energy_of(samples: Samples) -> float:
+    """Half the weighted sum of squared f cos."""
+    return 0.5 * float(np.sum(samples.weight * np.square(samples.values * samples.wi[:, 2:])))
+
+
+def polish(problem: Problem, equations: Equations, searches: list[Search], steps: int) -> Search:
     """The best of some searches on all samples, carried on to the end."""
-    say("polishing")
     begun = [begin(problem, equations, search.numbers) for search in searches]
     for search in begun:
         search.damping = 1e-4  # they come from a minimum

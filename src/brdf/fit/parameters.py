@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 
 from ..combinators.sums import Scaled, Sum
 from ..errors import ReflectanceError
-from ..formula.trace import component_names
+from ..formula.derivative import derivative
+from ..formula.graph import reachable
+from ..formula.trace import component_names, trace
 from ..models import EnergyCompensated, Model
 from ..parameters import Parameter
 from ..reflectance import Reflectance
@@ -28,6 +30,10 @@ REACH = 30.0
 """Factor about the default within which an unbounded scale starts."""
 
 
+_linear: dict[tuple[Any, ...], frozenset[str]] = {}
+"""By structure."""
+
+
 @dataclass(frozen=True)
 class Component:
     """One number: a parameter, or one channel of a colour."""
@@ -40,6 +46,8 @@ class Component:
     high: float
     default: float
     is_colour: bool
+    is_linear: bool
+    """Whether f is linear in it and all others of which this holds, taken together: those can be solved for."""
     is_log: bool
     """Whether its coordinate is its logarithm, else the number itself."""
 
@@ -83,23 +91,43 @@ def components(m: Reflectance) -> list[Component]:
 
     Raises ReflectanceError for a reflectance without declared parameters.
     """
+    if m.structure not in _linear:
+        _linear[m.structure] = _linear_colours(m)
     declared = _declared(m)
     found = []
     for name, value in m.values.items():
         if name not in declared:
             raise ReflectanceError(f"{m.name or type(m).__name__} has numbers without bounds ({name}); fit a model")
         numbers = np.atleast_1d(np.asarray(value, np.float64))
+        is_linear = name in _linear[m.structure]
         for channel, component in enumerate(component_names(name, len(numbers))):
-            found.append(_component(component, name, channel, declared[name], float(numbers[channel]), len(numbers)))
+            number = float(numbers[channel])
+            found.append(_component(component, name, channel, declared[name], number, len(numbers), is_linear))
     return found
 
 
-def _component(name: str, full: str, channel: int, declared: Parameter, value: float, size: int) -> Component:
+def _component(
+    name: str, full: str, channel: int, declared: Parameter, value: float, size: int, is_linear: bool
+) -> Component:
     low, high = declared.low, declared.high
-    reference = low if low > 0 else abs(value) or 1.0
-    is_log = low >= 0 and (high / reference if math.isfinite(high) else math.inf) > WIDE
-    is_log = is_log and not (size == 3 and low == 0 and not math.isfinite(high))  # the scale of a lobe may be 0
-    return Component(name, full, channel, low, high, value, size == 3, is_log)
+    reference = low if low > 0 else max(abs(value), 1.0 if high <= 1 else 0.0) or 1.0
+    is_log = not is_linear and low >= 0 and high / reference > WIDE
+    return Component(name, full, channel, low, high, value, size == 3, is_linear, is_log)
+
+
+def _linear_colours(m: Reflectance) -> frozenset[str]:
+    """The colours that f is linear in, all of them together."""
+    program = trace(m)
+    inputs = {name: [program.graph.symbol(c) for c in component_names(name, n)] for name, n in program.parameters}
+    linear: list[str] = []
+    for name, symbols in inputs.items():
+        if len(symbols) != 3:
+            continue
+        tried = [symbol for known in [*linear, name] for symbol in inputs[known]]
+        slopes = [d for symbol in tried for d in derivative(program.outputs, symbol)]
+        if not set(reachable(slopes)) & set(tried):
+            linear.append(name)
+    return frozenset(linear)
 
 
 def _declared(m: Reflectance) -> dict[str, Parameter]:

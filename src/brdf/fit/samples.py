@@ -66,25 +66,23 @@ class Samples:
                 f"samples need directions and values of shape (N, 3), got {wi.shape}, {wo.shape}, {values.shape}"
             )
         check_lengths(wi=wi, wo=wo)
-        weight = np.asarray(weight, np.float64)
-        weight = np.broadcast_to(weight[:, None] if weight.ndim == 1 else weight, values.shape)
+        given = np.asarray(weight, np.float64)
+        given = np.broadcast_to(given[:, None] if given.ndim == 1 else given, values.shape)
         least = max(math.cos(math.radians(grazing)), 1e-6)
         with np.errstate(invalid="ignore"):
-            good = (values >= 0).all(1) & np.isfinite(values).all(1) & (weight >= 0).all(1) & (weight.sum(1) > 0)
+            good = (values >= 0).all(1) & np.isfinite(values).all(1) & (given >= 0).all(1) & (given.sum(1) > 0)
         good &= (wi[:, 2] >= least) & (wo[:, 2] >= least)
         if not good.any():
             raise ParameterError(f"{name or 'the data'} holds no valid value within {grazing:g} degrees of the normal")
-        weight = weight[good]
+        chosen = given[good]
         return cls(
-            wi[good].astype(np.float32), wo[good].astype(np.float32), values[good], weight / weight.mean(), name,
+            wi[good].astype(np.float32), wo[good].astype(np.float32), values[good], chosen / chosen.mean(), name,
             source, grazing, int(np.count_nonzero(~good)),
         )  # fmt: skip
 
     def __getitem__(self, rows: Any) -> Samples:
         """Some of them."""
-        return replace(
-            self, wi=self.wi[rows], wo=self.wo[rows], values=self.values[rows], weight=self.weight[rows]
-        )
+        return replace(self, wi=self.wi[rows], wo=self.wo[rows], values=self.values[rows], weight=self.weight[rows])
 
     def reweighted(self, weight: Array) -> Samples:
         """The same with other weights (N, 3)."""

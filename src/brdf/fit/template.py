@@ -63,7 +63,7 @@ def template_of(model: Any, count: int = 1, diffuse: bool | None = None, isotrop
 
 def _anisotropic(base: Model) -> Reflectance:
     """With the two followers of a width in the place of their leader, where it has them."""
-    changes = {}
+    changes: dict[str, Any] = {}
     declared = base.declarations()
     for leader in {p.follows for p in declared.values() if p.follows}:
         if leader in base.values:

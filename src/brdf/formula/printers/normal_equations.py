@@ -76,9 +76,7 @@ def print_normal_equations(
     lines += [f"        in_{row} = work[{row * BLOCK} + i]" for row in range(len(loads))]
     lines += [f"        {name} = {text}" for name, text in statements.lines]
     base = len(loads)
-    lines += [
-        f"        work[{(base + row) * BLOCK} + i] = {statements.text(node)}" for row, node in enumerate(outputs)
-    ]
+    lines += [f"        work[{(base + row) * BLOCK} + i] = {statements.text(node)}" for row, node in enumerate(outputs)]
     for channel, rows in enumerate(channels):
         lines.append(f"    add_products(work, {base}, {len(rows)}, BLOCK, count, grams[{channel}])")
         base += len(rows)
