@@ -10,7 +10,7 @@ Delta distributions (mirrors) show in no picture and at no pair of directions: t
 """
 
 from .albedo import ALBEDO_ANGLES, directional_albedo
-from .comparison import Comparison, compare, rank
+from .comparison import RANKINGS, Comparison, compare, rank
 from .importance import Errors, ErrorsAgainst, display_rms, importance_errors, importance_pairs, relative_rms
 from .pairs import (
     LOG_OFFSET,
@@ -41,11 +41,13 @@ from .sphere import (
     sphere_pairs,
     sphere_radiance,
 )
+from .surroundings import lit_from_all_around
 
 __all__ = [
-    "ALBEDO_ANGLES", "LIGHT_ANGLES", "LOG_OFFSET", "METRICS", "SPHERE_SIZE", "Comparison", "DeltaE", "Errors",
-    "ErrorsAgainst", "Metric", "Pairs", "compare", "cosine_weighted_l2", "cube_root", "delta_e", "delta_e_of",
-    "direction_metrics", "direction_pairs", "directional_albedo", "display_rms", "error_map", "importance_errors",
-    "importance_pairs", "log_relative", "logarithmic", "psnr", "psnr_by_angle", "psnr_by_light", "psnr_of", "rank",
-    "relative_rms", "relative_rmse", "relative_rmse_of", "sphere_lights", "sphere_pairs", "sphere_radiance",
+    "ALBEDO_ANGLES", "LIGHT_ANGLES", "LOG_OFFSET", "METRICS", "RANKINGS", "SPHERE_SIZE", "Comparison", "DeltaE",
+    "Errors", "ErrorsAgainst", "Metric", "Pairs", "compare", "cosine_weighted_l2", "cube_root", "delta_e",
+    "delta_e_of", "direction_metrics", "direction_pairs", "directional_albedo", "display_rms", "error_map",
+    "importance_errors", "importance_pairs", "lit_from_all_around", "log_relative", "logarithmic", "psnr",
+    "psnr_by_angle", "psnr_by_light", "psnr_of", "rank", "relative_rms", "relative_rmse", "relative_rmse_of",
+    "sphere_lights", "sphere_pairs", "sphere_radiance",
 ]  # fmt: skip

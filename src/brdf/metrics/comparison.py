@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import ParameterError
+from ..errors import ParameterError, UnknownNameError
 from ..reflectance import Reflectance
 from . import sphere
 from .albedo import ALBEDO_ANGLES, directional_albedo
 from .pairs import METRICS, Array, direction_pairs
 from .sphere import SPHERE_SIZE, DeltaE
+from .surroundings import lit_from_all_around
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,6 +37,8 @@ class Comparison:
     """mean CIEDE2000 over the pixels of each picture"""
     relative_rmse: float
     """linear pictures of a sphere"""
+    surroundings_rmse: float
+    """relative RMSE of linear pictures of a sphere lit from all around, see `metrics.surroundings`"""
     albedo_difference: float
     """largest |difference| of directional albedo over channels and 0, 30, 60, 80 degrees"""
     bytes: tuple[int, int]
@@ -64,6 +67,7 @@ class Comparison:
             ("ΔE2000: mean", f"{self.delta_e.mean:.3g}"),
             ("ΔE2000: 95 % below", f"{self.delta_e.p95:.3g}"),
             ("relative RMSE", f"{self.relative_rmse:.3g}"),
+            ("relative RMSE, lit all around", f"{self.surroundings_rmse:.3g}"),
             ("albedo difference", f"{self.albedo_difference:.3g}"),
             *((name, f"{value:.3g}") for name, value in self.metrics.items()),
             ("bytes", f"{self.bytes[0]:,} -> {self.bytes[1]:,}"),
@@ -76,7 +80,8 @@ class Comparison:
             "psnr": self.psnr, "psnr_mean": self.psnr_mean, "psnr_min": self.psnr_min,
             "psnr_by_angle": self.psnr_by_angle.tolist(), "delta_e": self.delta_e._asdict(),
             "delta_e_by_angle": self.delta_e_by_angle.tolist(), "relative_rmse": self.relative_rmse,
-            "albedo_difference": self.albedo_difference, "metrics": dict(self.metrics),
+            "surroundings_rmse": self.surroundings_rmse, "albedo_difference": self.albedo_difference,
+            "metrics": dict(self.metrics),
         }  # fmt: skip
 
     def table(self) -> str:
@@ -105,6 +110,10 @@ class _Seen:
         return sphere.sphere_radiance(self.m, self.size)
 
     @cached_property
+    def lit_from_all_around(self) -> Array:
+        return lit_from_all_around(self.m)
+
+    @cached_property
     def albedos(self) -> Array:
         return np.stack([directional_albedo(self.m, angle) for angle in ALBEDO_ANGLES])
 
@@ -119,15 +128,29 @@ def compare(a: Reflectance, b: Reflectance, size: int = SPHERE_SIZE) -> Comparis
     return _compare(_Seen(a, size), _Seen(b, size))
 
 
-def rank(reference: Reflectance, others: Sequence[Reflectance], size: int = SPHERE_SIZE) -> list[Comparison]:
-    """How far each of `others` is from `reference`, the one with the highest PSNR first.
+RANKINGS: dict[str, Callable[[Comparison], tuple[float, ...]]] = {
+    "surroundings": lambda c: (c.surroundings_rmse, -c.psnr),
+    "psnr": lambda c: (-c.psnr, c.relative_rmse),
+    "delta-e": lambda c: (c.delta_e.mean, -c.psnr),
+    "log": lambda c: (c.metrics["log relative"], -c.psnr),
+}
+"""What to sort comparisons by, the least first. The first is the default: of the metrics here it agrees best with what
+people see (docs/comparing.md)."""
 
-    Raises ParameterError when there are none.
+
+def rank(
+    reference: Reflectance, others: Sequence[Reflectance], size: int = SPHERE_SIZE, by: str = "surroundings"
+) -> list[Comparison]:
+    """How far each of `others` is from `reference`, the nearest first, by one of `RANKINGS`.
+
+    Raises ParameterError when there are none, UnknownNameError for another ranking.
     """
     if not others:
         raise ParameterError("nothing to compare with the reference; give at least one more reflectance")
+    if by not in RANKINGS:
+        raise UnknownNameError("ranking", by, RANKINGS)
     seen = _Seen(reference, size)
-    return sorted((_compare(seen, _Seen(m, size)) for m in others), key=lambda c: (-c.psnr, c.relative_rmse))
+    return sorted((_compare(seen, _Seen(m, size)) for m in others), key=RANKINGS[by])
 
 
 def _compare(a: _Seen, b: _Seen) -> Comparison:
@@ -142,6 +165,7 @@ def _compare(a: _Seen, b: _Seen) -> Comparison:
         delta_e=sphere.pooled(colours),
         delta_e_by_angle=sphere.mean_by_light(colours, lights),
         relative_rmse=sphere.relative_rmse_of(*radiances),
+        surroundings_rmse=sphere.relative_rmse_of(a.lit_from_all_around, b.lit_from_all_around),
         albedo_difference=float(np.abs(a.albedos - b.albedos).max()),
         bytes=(a.m.nbytes, b.m.nbytes),
         metrics={name: metric(a.values, b.values, weight) for name, metric in METRICS.items()},

@@ -20,14 +20,16 @@ def command(
     out: Annotated[
         Path | None, typer.Option("-o", "--output", help="Figure: .png, .svg, .html, .pdf. [NAME-compared.png]")
     ] = None,
+    by: Annotated[str, typer.Option(help="Rank several by: surroundings, psnr, delta-e or log.")] = "surroundings",
     no_figure: Annotated[bool, typer.Option("--no-figure", help="The numbers alone.")] = False,
     json: arguments.AsJson = False,
 ) -> None:
     """Compare materials with a reference.
 
-    Numbers: pictures of a lit sphere over all light angles (PSNR, CIEDE2000, relative RMSE), errors over pairs of
-    directions, albedo, bytes; of several materials a table, the nearest first. Figure: spheres, ten times their
-    differences, PSNR and CIEDE2000 against the light's angle, error over half and difference angle.
+    Numbers: pictures of a lit sphere over all light angles (PSNR, CIEDE2000, relative RMSE), the same lit from all
+    around, errors over pairs of directions, albedo, bytes; of several materials a table, the nearest first. Figure:
+    spheres, ten times their differences, PSNR and CIEDE2000 against the light's angle, error over half and difference
+    angle.
 
     \b
     Examples:
@@ -36,9 +38,11 @@ def command(
       brdf compare chrome steel nickel GGX:alpha=.02,F0=.55 --no-figure
       brdf compare measured.binary fitted.safetensors --json
     """
-    from ...errors import ParameterError
-    from ...metrics import rank
+    from ...errors import ParameterError, UnknownNameError
+    from ...metrics import RANKINGS, rank
 
+    if by not in RANKINGS:
+        raise UnknownNameError("ranking", by, RANKINGS)
     if no_figure and out is not None:
         raise ParameterError("--no-figure and --output exclude each other; give one of them")
     with output.working("reading"):
@@ -49,7 +53,7 @@ def command(
     if path is not None:
         output.require_writable(path)
     with output.working("comparing"):
-        ranked = rank(m, others)
+        ranked = rank(m, others, by=by)
     if path is not None:
         _draw(ranked, path)
     if json:
@@ -93,12 +97,23 @@ def _print(ranked: list[Comparison]) -> None:
         output.print_table(("", f"{ranked[0].reference} → {ranked[0].other}"), ranked[0].rows())
         return
     print(f"{ranked[0].reference}, {output.format_bytes(ranked[0].bytes[0])}, against")
-    header = ("", "PSNR [dB]", "least", "ΔE2000", "95 % <", "rel. RMSE", "albedo", "log relative", "bytes")
+    header = (
+        "",
+        "PSNR [dB]",
+        "least",
+        "ΔE2000",
+        "95 % <",
+        "rel. RMSE",
+        "all around",
+        "albedo",
+        "log relative",
+        "bytes",
+    )
     lines = [
         (
             c.other, f"{c.psnr:.1f}", f"{c.psnr_min:.1f}", f"{c.delta_e.mean:.3g}", f"{c.delta_e.p95:.3g}",
-            f"{c.relative_rmse:.3g}", f"{c.albedo_difference:.3g}", f"{c.metrics['log relative']:.3g}",
-            f"{c.bytes[1]:,}",
+            f"{c.relative_rmse:.3g}", f"{c.surroundings_rmse:.3g}", f"{c.albedo_difference:.3g}",
+            f"{c.metrics['log relative']:.3g}", f"{c.bytes[1]:,}",
         )
         for c in ranked
     ]  # fmt: skip
