@@ -73,15 +73,16 @@ def convert(
     source: str | os.PathLike[str] | Reflectance,
     target: str | os.PathLike[str],
     representation: str | None = None,
+    format: str | None = None,
     **options: Any,
 ) -> Conversion:
-    """Write `source` (whatever `brdf.load` takes) to `target`, in the format of its extension.
+    """Write `source` (whatever `brdf.load` takes) to `target`, in the format of its extension or the one named.
 
     With a representation or options it is first baked (see `bake`). What was written is read back and compared with the
     source. Raises as `load`, `bake` and `io.write`.
     """
     m = source if isinstance(source, Reflectance) else load(source)
-    io.write(bake(m, representation, **options) if representation or options else m, target)
+    io.write(bake(m, representation, **options) if representation or options else m, target, format)
     written = io.read(target)
     return Conversion(m, written, metrics.compare(m, written), bytes_on_disk(target))
 

@@ -9,7 +9,7 @@ import pytest
 
 import brdf
 from brdf import io
-from brdf.errors import CorruptFileError, FileError, ReflectanceError, UnknownFormatError
+from brdf.errors import CorruptFileError, FileError, UnknownFormatError
 
 
 def test_formats_are_listed():
@@ -68,12 +68,6 @@ def test_unknown_extension_lists_what_is_written(tmp_path, name, given):
 def test_folder_that_does_not_exist(tmp_path):
     with pytest.raises(FileError, match="cannot be written"):
         io.write(brdf.models.Lambertian(), tmp_path / "no" / "m.safetensors")
-
-
-def test_rgl_holds_measurements_only(tmp_path):
-    with pytest.raises(ReflectanceError, match="not a Lambertian"):
-        io.write(brdf.models.Lambertian(), tmp_path / "m.bsdf")
-    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("kept", [9, 40, 0.5, 0.99])

@@ -72,14 +72,21 @@ def representation_for(representation: str | None, options: Mapping[str, Any]) -
     return chosen
 
 
-def convert(m: Reflectance, out: str, representation: str | None, options: Mapping[str, Any], json: bool) -> None:
+def convert(
+    m: Reflectance,
+    out: str,
+    representation: str | None,
+    options: Mapping[str, Any],
+    json: bool,
+    format: str | None = None,
+) -> None:
     """Convert and print what it cost. `out` is a folder where it is one already, or ends in a slash."""
     from ..conversion import convert
 
     _require_place(m, out, representation)
     place = Path(out)
     with output.working(f"writing {place.name}"):
-        done = convert(m, out, representation, **options)
+        done = convert(m, out, representation, format, **options)
     comparison = done.comparison
     if json:
         output.print_json({"file": out, "file_bytes": done.file_bytes} | comparison.numbers())

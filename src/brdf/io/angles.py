@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import ReflectanceError
 from ..geometry.directions import to_spherical
 from ..reflectance import Reflectance
-from ..representations.baking.bake import require_isotropic
+from ..representations.baking.bake import require_values
 from ..representations.tables.bases import HalfBasis
 
 Array = NDArray[np.floating[Any]]
@@ -25,7 +26,10 @@ def goniometer_pairs(reflectance: Reflectance) -> tuple[Array, Array, Array]:
 
     Raises ReflectanceError for a reflectance that is anisotropic, transmits or mirrors.
     """
-    require_isotropic(reflectance)
+    if not reflectance.isotropic:
+        name = reflectance.name or type(reflectance).__name__
+        raise ReflectanceError(f"{name} is anisotropic, which such text does not hold; write .bin, .csail or .bsdf")
+    require_values(reflectance)
     theta_h = np.linspace(0, 1, 22) ** 2 * math.radians(88)
     theta_d, phi_d = np.radians(np.arange(0.5, 89, 5)), np.radians(np.arange(0, 181, 15))
     nodes = np.meshgrid(theta_h, theta_d, phi_d, indexing="ij")

@@ -109,13 +109,15 @@ def _member(path: Path, made: Mapping[str, Callable[[], Reflectance]], name: str
     return made[name]()
 
 
-def write(reflectance: Reflectance, path: str | os.PathLike[str]) -> None:
-    """Write in the format of the path's extension; the file is replaced whole or not at all.
+def write(reflectance: Reflectance, path: str | os.PathLike[str], format: str | None = None) -> None:
+    """Write in the format of the path's extension, or the one that is named; the file is replaced whole or not at all.
 
     A path that ends in a slash, or an existing folder, is written as a folder. Raises UnknownFormatError for an
-    extension that no format writes, FileError when the place cannot be written, ReflectanceError when the format cannot
-    hold this reflectance.
+    extension that no format writes, UnknownNameError for a name that no format has that is written, FileError when the
+    place cannot be written, ReflectanceError when the format cannot hold this reflectance.
     """
+    if format is not None:
+        return _written(format)(reflectance, Path(path))
     is_folder = os.fspath(path).endswith(("/", os.sep)) or os.path.isdir(path)
     path = Path(path)
     extension = path.suffix.lower()
@@ -127,6 +129,18 @@ def write(reflectance: Reflectance, path: str | os.PathLike[str]) -> None:
     given = f"no format is written with the extension {extension!r}" if extension else "the name has no extension"
     known = ", ".join(f"{f.extensions[0]} ({f.name})" for f in writers)
     raise UnknownFormatError(path, f"{given}; written: {known}.")
+
+
+def slug(name: str) -> str:
+    """A format's name as it is typed: lower case, with hyphens."""
+    return name.lower().replace(" ", "-")
+
+
+def _written(name: str) -> Callable[[Reflectance, Path], None]:
+    writers = {slug(f.name): f.writer for f in _all() if f.writer is not None}
+    if slug(name) not in writers:
+        raise UnknownNameError("format that is written", name, writers)
+    return writers[slug(name)]
 
 
 def format_of(path: str | os.PathLike[str]) -> Format:

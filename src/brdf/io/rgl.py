@@ -17,9 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..container import replacing
-from ..errors import CorruptFileError, ReflectanceError
+from ..errors import CorruptFileError
 from ..reflectance import Reflectance
 from ..representations.adaptive import Adaptive
+from ..representations.baking.adaptive_grid import bake_adaptive
 from .registry import Format
 
 SIGNATURE = b"tensor_file\0"
@@ -103,12 +104,13 @@ def _entry(cursor: _Cursor) -> tuple[str, tuple[np.dtype[Any], int, tuple[int, .
 
 
 def write(reflectance: Reflectance, path: Path) -> None:
-    """An `Adaptive` as an RGL file. Raises ReflectanceError for any other reflectance, FileError."""
-    if not isinstance(reflectance, Adaptive):
-        kind = type(reflectance).__name__
-        raise ReflectanceError(f"an RGL file holds an adaptive measurement, not a {kind}; save as .safetensors")
-    description = np.frombuffer(reflectance.description.encode(), np.uint8)
-    write_tensors({"description": description, **reflectance.tensors}, path)
+    """An `Adaptive` as it is, any other reflectance resampled to adaptive grids (`bake_adaptive`).
+
+    Raises ReflectanceError for what transmits or mirrors, FileError.
+    """
+    measured = reflectance if isinstance(reflectance, Adaptive) else bake_adaptive(reflectance)
+    description = np.frombuffer(measured.description.encode(), np.uint8)
+    write_tensors({"description": description, **measured.tensors}, path)
 
 
 def write_tensors(tensors: Mapping[str, NDArray[Any]], path: Path) -> None:

@@ -20,18 +20,24 @@ def command(
     size: Size = None,
     blend: Blend = None,
     storage: Storage = None,
+    format: Annotated[
+        str | None,
+        typer.Option("--format", metavar="NAME", help="Where an extension has several: zemax-text, mit-csail ..."),
+    ] = None,
     json: arguments.AsJson = False,
 ) -> None:
     """Write a material in another file format.
 
     What was written is read back and compared with the source, to say what was lost. With --as, or an option of a
-    representation, it is baked first.
+    representation, it is baked first. `brdf list formats` tells what is read and written.
 
     \b
     Examples:
       brdf convert measured.binary measured.safetensors
       brdf convert measured.bsdf measured.binary
+      brdf convert merl.fit@chrome chrome.bsdf
+      brdf convert measured.bin measured.bsdf --format zemax-text
       brdf convert measured.binary small.safetensors --as slice-stack --budget 64K
     """
     options = given(budget=budget, anisotropic=anisotropic, angles=angles, size=size, blend=blend, storage=storage)
-    convert(arguments.load(source), out, representation, options, json)
+    convert(arguments.load(source), out, representation, options, json, format)
