@@ -19,26 +19,13 @@ def map_texels(environment: Environment) -> Floats:
 
 
 def places(environment: Environment) -> Floats:
-    """(65536, 2) places (u, v) in the map, in [0, 1]: v down, both before the environment is turned.
+    """(256, 256, 2) places (u, v) in the map, in [0, 1]: v down, both before the environment is turned.
 
-    One for each cell of the square of random numbers, in the order of Hilbert's curve: numbers of low discrepancy that
-    choose among them are spread well over both.
+    One for each cell of the square of the two numbers that `sample` takes, rows by the first of them.
     """
-    cells = hilbert(SIDE)
+    cells = np.stack(np.meshgrid(np.arange(SIDE), np.arange(SIDE), indexing="ij"), -1).reshape(-1, 2)
     within = np.random.default_rng(SIDE).random(cells.shape)
     directions = environment.unturned().sample(((cells + within) / SIDE).astype(np.float32))[0].astype(np.float64)
     u = np.arctan2(directions[:, 0], -directions[:, 2]) / (2 * np.pi) + 0.5
     v = np.arctan2(np.hypot(directions[:, 0], directions[:, 2]), directions[:, 1]) / np.pi
-    return np.stack([u, v], -1).astype(np.float32)
-
-
-def hilbert(side: int) -> NDArray[np.int64]:
-    """(side², 2) cells of a square in the order of Hilbert's curve; `side` is a power of 2."""
-    curve = np.zeros((1, 2), np.int64)
-    size = 1
-    while size < side:
-        turned = curve[:, ::-1]
-        right, up = np.array([size, 0]), np.array([0, size])
-        curve = np.concatenate([turned, curve + up, curve + up + right, size - 1 - turned + right])
-        size *= 2
-    return curve
+    return np.stack([u, v], -1).astype(np.float32).reshape(SIDE, SIDE, 2)

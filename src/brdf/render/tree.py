@@ -14,7 +14,7 @@ from .visibility import nudge
 
 Floats = NDArray[np.float32]
 
-MOST_FACES = 10_000_000
+MOST_FACES = 5_000_000
 """That fit a texture of common cards, six texels each, and whose numbers single precision holds."""
 
 MARGIN = 1e-6

@@ -35,8 +35,9 @@ def vertex(shape: str) -> str:
 
 def fragment(shape: str) -> str:
     """The fragment shader that shades a shape; `MATERIAL` stands for the material."""
-    surface = [f"surface.{shape}", f"shadow.{shape}"]
-    return _joined("precision", "material", "camera", "texel", "point", *surface, "lights", "environment", "main.frag")
+    surface = ["point", "angle", f"surface.{shape}", f"shadow.{shape}"]
+    light = ["lights", "points", "environment"]
+    return _joined("precision", "material", "camera", "texel", *surface, *light, "main.frag")
 
 
 def evaluation() -> str:

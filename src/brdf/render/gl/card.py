@@ -18,7 +18,7 @@ Floats = NDArray[np.float32]
 
 HEADER = "#version 330 core\n"
 
-LIST_WIDTH = 4096
+LIST_WIDTH = 2048
 """Texels in a row of a texture that holds a list."""
 
 TYPES = {"UNSIGNED_BYTE": "f1", "HALF_FLOAT": "f2", "FLOAT": "f4"}

@@ -137,7 +137,7 @@ class Renderer:
             self._mesh = mesh
         if environment is not None:
             lists["environment_map"] = self._card.texture(map_texels(environment))
-            lists["environment_directions"] = self._card.texel_list(places(environment))
+            lists["environment_directions"] = self._card.texture(places(environment))
         return lists
 
     def _with_scene(self, program: Program, shape: str, m: Reflectance | None = None) -> Program:
@@ -153,7 +153,7 @@ class Renderer:
         _set_lights(program, task.scene.lights, self._passes)
         environment = task.scene.environment
         program["environment_samples"] = task.rounds // self._passes
-        program["environment_seed"] = task.seed
+        program["environment_total"], program["environment_seed"] = task.rounds * task.per_pixel, task.seed
         if environment is not None and m is not None:
             program["environment_turn"], program["environment_scale"] = environment.turn, 1.0
             program["lobe_alpha"], program["lobe_share"] = stand_in(m)

@@ -3,14 +3,16 @@
 
 uniform int environment_samples;           // a pass and kind; 0: there is no environment
 uniform int environment_pass;              // 0, 1, 2, ...: passes draw other directions
+uniform int environment_total;             // of a pixel's samples of each kind; 0: not known yet
 uniform int environment_seed;
 uniform sampler2D environment_map;         // radiance, and density of the brightness over solid angle [1/sr]
-uniform sampler2D environment_directions;  // a list of places (u, v) in the map, drawn by brightness
+uniform sampler2D environment_directions;  // places (u, v) in the map, drawn by brightness: by number, row and column
 uniform vec2 environment_turn;             // cosine and sine of the rotation about +y
 uniform float environment_scale;           // of the radiance
 uniform float lobe_alpha, lobe_share;      // width and probability of the stand-in's GGX lobe
 
 const float TAU = 6.28318531;
+const int MANY = 4096;  // stands in for a total that is not known
 
 vec3 environment_direction(vec2 place) {
     float theta = place.y * TAU * 0.5, phi = (place.x - 0.5) * TAU;
@@ -29,23 +31,13 @@ vec4 environment(vec3 d) {
     vec2 turned = vec2(environment_turn.x * d.x - environment_turn.y * d.z,
                        environment_turn.y * d.x + environment_turn.x * d.z);
     vec2 size = vec2(textureSize(environment_map, 0));
-    vec2 place = vec2(atan(turned.x, -turned.y) / TAU + 0.5, acos(clamp(d.y, -1.0, 1.0)) / TAU * 2.0) * size;
+    vec2 place = vec2(angle_of(turned.x, -turned.y) / TAU + 0.5, angle_of(length(turned), d.y) / TAU * 2.0) * size;
     float density = environment_texel(min(ivec2(place), ivec2(size) - 1)).a;
     vec2 corner = floor(place - 0.5), f = place - 0.5 - corner;
     ivec2 i = ivec2(corner);
     vec3 upper = mix(environment_texel(i).rgb, environment_texel(i + ivec2(1, 0)).rgb, f.x);
     vec3 lower = mix(environment_texel(i + ivec2(0, 1)).rgb, environment_texel(i + ivec2(1, 1)).rgb, f.x);
     return vec4(mix(upper, lower, f.y) * environment_scale, density);
-}
-
-// Three numbers in [0, 1) for sample n of the pixel: a sequence of low discrepancy, shifted from pixel to pixel.
-vec3 numbers(int n) {
-    uvec3 v = uvec3(gl_FragCoord.xy, environment_seed) * 1664525u + 1013904223u;  // pcg3d [Jarzynski2020]
-    v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
-    v ^= v >> 16u;
-    v.x += v.y * v.z; v.y += v.z * v.x; v.z += v.x * v.y;
-    uvec3 steps = uvec3(3518319155u, 2882110345u, 2360945575u);  // 2^32 times the powers of 1 / 1.2207441
-    return vec3((v + uint(n) * steps) >> 8u) * exp2(-24.0);
 }
 
 float lobe_density(vec3 wi, vec3 wo) {
@@ -59,15 +51,16 @@ float lobe_density(vec3 wi, vec3 wo) {
 }
 
 // A direction drawn by the stand-in: visible normals of GGX [Dupuy2023], or a cosine lobe.
-vec3 lobe_direction(vec3 u, vec3 wo) {
-    float phi = TAU * u.x;
-    if (u.z >= lobe_share) {
-        float below = TRANSMITS && fract((u.z - lobe_share) / (1.0 - lobe_share) * 2.0) < 0.5 ? -1.0 : 1.0;
-        return vec3(sqrt(u.y) * vec2(cos(phi), sin(phi)), below * sqrt(1.0 - u.y));
+vec3 lobe_direction(vec2 u, vec3 wo) {
+    if (u.y >= lobe_share) {
+        u.y = (u.y - lobe_share) / (1.0 - lobe_share);
+        float side = TRANSMITS && u.y >= 0.5 ? -1.0 : 1.0;
+        if (TRANSMITS) u.y = fract(2.0 * u.y);
+        return vec3(sqrt(u.y) * vec2(cos(TAU * u.x), sin(TAU * u.x)), side * sqrt(1.0 - u.y));
     }
     vec3 stretched = normalize(vec3(lobe_alpha * wo.xy, wo.z));
-    float z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
-    vec3 h = vec3(sqrt(clamp(1.0 - z * z, 0.0, 1.0)) * vec2(cos(phi), sin(phi)), z) + stretched;
+    float z = (1.0 - u.y / lobe_share) * (1.0 + stretched.z) - stretched.z;
+    vec3 h = vec3(sqrt(clamp(1.0 - z * z, 0.0, 1.0)) * vec2(cos(TAU * u.x), sin(TAU * u.x)), z) + stretched;
     h = normalize(vec3(lobe_alpha * h.xy, max(h.z, 1e-6)));
     return reflect(-wo, h);
 }
@@ -80,14 +73,16 @@ vec3 weighed(Point point, vec3 wi, vec3 world, vec4 light, float density) {
 
 vec3 from_environment(Point point) {
     vec3 radiance = vec3(0.0);
-    int directions = textureSize(environment_directions, 0).x * textureSize(environment_directions, 0).y;
+    uvec2 pixel = uvec2(gl_FragCoord.x, picture_size.y - gl_FragCoord.y);
+    uint seed = uint(environment_seed), total = uint(environment_total > 0 ? environment_total : MANY);
+    uint first = along_curve(pixel, seed) * total + uint(environment_pass * environment_samples);
     for (int s = 0; s < environment_samples; s++) {
-        vec3 u = numbers(environment_pass * environment_samples + s);
-        vec3 world = environment_direction(mesh_texel(environment_directions, int(u.x * float(directions))).xy);
+        ivec2 chosen = ivec2(sequence(first + uint(s), 2u * seed).yx * vec2(textureSize(environment_directions, 0)));
+        vec3 world = environment_direction(texelFetch(environment_directions, chosen, 0).xy);
         vec4 light = environment(world);
         vec3 wi = normalize(world * point.frame);
         radiance += weighed(point, wi, world, light, light.a + lobe_density(wi, point.wo));
-        wi = lobe_direction(u.yzx, point.wo);
+        wi = lobe_direction(sequence(first + uint(s), 2u * seed + 1u), point.wo);
         world = point.frame * wi;
         light = environment(world);
         radiance += weighed(point, wi, world, light, light.a + lobe_density(wi, point.wo));

@@ -11,7 +11,7 @@ void main() {
     int corner = gl_VertexID % 3;
     face = gl_VertexID / 3;
     weights = vec2(corner == 1, corner == 2);
-    vec3 p = mesh_texel(mesh_faces, face * 6 + corner).xyz;
+    vec3 p = list_texel(mesh_faces, face * 6 + corner).xyz;
     vec3 seen = (p - camera_position) * camera_frame;
     float w = camera_parallel ? 1.0 : -seen.z;
     float near = camera_depths.x, far = camera_depths.y;

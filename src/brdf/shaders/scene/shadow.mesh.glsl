@@ -12,8 +12,8 @@ bool meets_box(vec3 origin, vec3 inverse, vec3 least, vec3 greatest, float reach
 }
 
 bool meets_face(vec3 origin, vec3 ray, int face, float reach) {
-    vec3 p = mesh_texel(mesh_faces, face * 6).xyz;
-    vec3 edge_1 = mesh_texel(mesh_faces, face * 6 + 1).xyz - p, edge_2 = mesh_texel(mesh_faces, face * 6 + 2).xyz - p;
+    vec3 p = list_texel(mesh_faces, face * 6).xyz;
+    vec3 edge_1 = list_texel(mesh_faces, face * 6 + 1).xyz - p, edge_2 = list_texel(mesh_faces, face * 6 + 2).xyz - p;
     vec3 across = cross(ray, edge_2), from = origin - p;
     float volume = dot(edge_1, across);
     if (volume == 0.0) return false;
@@ -26,7 +26,7 @@ bool shadowed(vec3 origin, vec3 ray, float distance) {
     vec3 inverse = 1.0 / mix(ray, vec3(1e-20), equal(ray, vec3(0.0)));
     float reach = max(distance - 2.0 * mesh_nudge, 0.0);
     for (int node = 0; node < mesh_node_count;) {
-        vec4 least = mesh_texel(mesh_nodes, 2 * node), greatest = mesh_texel(mesh_nodes, 2 * node + 1);
+        vec4 least = list_texel(mesh_nodes, 2 * node), greatest = list_texel(mesh_nodes, 2 * node + 1);
         bool met = meets_box(origin, inverse, least.xyz, greatest.xyz, reach);
         int first = int(least.w), last = first + int(greatest.w);
         if (first >= 0 && met)

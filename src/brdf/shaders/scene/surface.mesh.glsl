@@ -14,8 +14,8 @@ Point surface() {
     vec3 b = vec3(1.0 - weights.x - weights.y, weights);
     vec4 p[3], q[3];
     for (int c = 0; c < 3; c++) {
-        p[c] = mesh_texel(mesh_faces, face * 6 + c);
-        q[c] = mesh_texel(mesh_faces, face * 6 + 3 + c);
+        p[c] = list_texel(mesh_faces, face * 6 + c);
+        q[c] = list_texel(mesh_faces, face * 6 + 3 + c);
     }
     vec3 edge_1 = p[1].xyz - p[0].xyz, edge_2 = p[2].xyz - p[0].xyz;
     vec3 at = b.x * p[0].xyz + b.y * p[1].xyz + b.z * p[2].xyz;
