@@ -57,5 +57,10 @@ def parse_size(text: str) -> tuple[int, int]:
 
 def file_name(m: Reflectance, extension: str) -> Path:
     """A file in the current folder named after the reflectance."""
-    stem = re.sub(r"[^A-Za-z0-9._@-]+", "-", m.name or type(m).__name__).strip("-.") or "material"
+    return named_file(m.name or type(m).__name__, extension)
+
+
+def named_file(name: str, extension: str) -> Path:
+    """A file in the current folder of that name, without what file systems or shells stumble over."""
+    stem = re.sub(r"[^A-Za-z0-9._@-]+", "-", name).strip("-.") or "material"
     return Path(f"{stem[:80]}{extension}")

@@ -1,11 +1,14 @@
 """Models fitted to data: starts, bounds and derivatives follow from what the models declare."""
 
 from ..callable_module import make_callable
+from .data import Data, data_of
 from .fitting import BUDGETS, fit
 from .losses import LOSSES
 from .result import IMAGE, Estimate, FitResult
 from .samples import GRAZING, Samples, samples_of
 
-__all__ = ["BUDGETS", "GRAZING", "IMAGE", "LOSSES", "Estimate", "FitResult", "Samples", "fit", "samples_of"]
+__all__ = [
+    "BUDGETS", "GRAZING", "IMAGE", "LOSSES", "Data", "Estimate", "FitResult", "Samples", "data_of", "fit", "samples_of",
+]  # fmt: skip
 
 make_callable(__name__, fit)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..errors import ParameterError, ReflectanceError, UnknownNameError
 from ..reflectance import Reflectance
 from .covariance import certainty
+from .data import Data, data_of
 from .equations import Equations, Normal
 from .levenberg import Problem, Search, advance, begin
 from .losses import LOSSES, Loss, loss_named
@@ -21,7 +22,7 @@ from .parameters import Component, components, grouped, with_values
 from .pictures import PictureEquations, radiances
 from .result import IMAGE, Estimate, FitResult, errors_of, residual_map
 from .robust import MOST, refine, require_known
-from .samples import GRAZING, Samples, samples_of
+from .samples import GRAZING, Samples
 from .template import MOST_LOBES, template_of
 
 Array = NDArray[Any]
@@ -52,13 +53,14 @@ def fit(
 ) -> FitResult:
     """The numbers of a model with which it is nearest to data.
 
-    `data`: a reflectance or `Samples`. `model`: a class of `brdf.models`, its name, or a reflectance made of models,
-    whose numbers are one start. `lobes`: how many copies of it, 1 to 3, or "auto" for the number with the least BIC;
-    a Lambertian part is added where the model has none, or as `diffuse` says. `metric`: what is made small, "l2",
-    "log", "log-relative", "cube-root" or "image"; all are reported. `fixed`: parameters that keep their values, by full
-    name. `grazing`: degrees from the normal beyond which nothing is fitted. `robust`: "soft_l1", "huber" or "cauchy",
-    to count outliers less. `budget`: "quick", "normal" or "thorough" (4, 16, 64 starts), or the number of starts.
-    The same `seed` gives the same result. `say` is told what is under way.
+    `data`: a reflectance, `Samples`, or a material as `brdf.load` takes it, a file for instance. `model`: a class of
+    `brdf.models`, its name, or a reflectance made of models, whose numbers are one start. `lobes`: how many copies of
+    it, 1 to 3, or "auto" for the number with the least BIC (Schwarz1978); a Lambertian part is added where the model
+    has none, or as `diffuse` says. `metric`: what is made small, "l2", "log", "log-relative", "cube-root" or "image";
+    all are reported. `fixed`: parameters that keep their values, by full name. `grazing`: degrees from the normal
+    beyond which nothing is fitted. `robust`: "soft_l1", "huber" or "cauchy", to count outliers less. `budget`: "quick",
+    "normal" or "thorough" (4, 16, 64 starts), or the number of starts. The same `seed` gives the same result. `say` is
+    told what is under way.
 
     Raises ParameterError, UnknownNameError, ReflectanceError.
     """
@@ -68,11 +70,11 @@ def fit(
         require_known(robust)
     if metric != IMAGE and metric not in LOSSES:
         raise UnknownNameError("metric", metric, [*LOSSES, IMAGE])
-    if metric == IMAGE and (isinstance(data, Samples) or robust is not None):
+    samples, reflectance = data if isinstance(data, Data) else data_of(data, grazing)
+    if metric == IMAGE and (reflectance is None or robust is not None):
         raise ParameterError("the image metric needs a reflectance to make pictures of, and has no robust form")
-    samples = samples_of(data, grazing)
-    isotropic = not isinstance(data, Reflectance) or data.isotropic
-    pictures = radiances(data) if isinstance(data, Reflectance) else None
+    isotropic = reflectance is None or reflectance.isotropic
+    pictures = radiances(reflectance) if reflectance is not None else None
     counts = range(1, MOST_LOBES + 1) if lobes == "auto" else [lobes]
     results = []
     for count in counts:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from .comparison import compared, comparison
 from .coverage import coverage
 from .curves import albedo, profile
+from .fitted import fitted
 from .fresnel_curves import fresnel
 from .maps import slices, solid
 from .overview import overview
@@ -19,6 +20,6 @@ from .pictures import spheres, white_out
 from .polar import cartesian, lobes
 
 __all__ = [
-    "albedo", "candidates", "cartesian", "compared", "comparison", "coverage", "fresnel", "lobes", "overview",
+    "albedo", "candidates", "cartesian", "compared", "comparison", "coverage", "fitted", "fresnel", "lobes", "overview",
     "profile", "save", "slices", "solid", "spheres", "white_out",
 ]  # fmt: skip

@@ -93,7 +93,7 @@ def sphere(
     photographs, warnings, facts = read_ball(Path(folder), response=response, progress=tell, **paths)
     if holdout is not None:
         left_out(len(photographs), holdout)
-    scale, said = _scale(photographs, albedo, white)
+    scale, said = ball_scale(photographs, albedo, white)
     photographs = photographs.scaled(scale)
     texels = size or int(np.clip(32 * math.ceil(photographs.ball.radius / 16), *SIZES))
 
@@ -151,7 +151,7 @@ def _agreement(photographs: BallPhotographs, m: Reflectance) -> float:
     return float(np.mean(found))
 
 
-def _scale(photographs: BallPhotographs, albedo: float | None, white: float | None) -> tuple[float, str]:
+def ball_scale(photographs: BallPhotographs, albedo: float | None, white: float | None) -> tuple[float, str]:
     """What to multiply the photographs with, and a sentence about it."""
     if white is not None:
         return 1 / white, f"scale: {white:g} of the largest number is a white diffuser facing the light"

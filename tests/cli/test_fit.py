@@ -1,0 +1,55 @@
+"""`brdf fit`: what it prints and writes."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import brdf as package
+
+Command = Callable[..., Any]
+TRUTH = "Lambertian:albedo=.2 + Ward:ks=.3,alpha=.15"
+
+
+def test_the_fitted_material_is_written(brdf: Command, tmp_path: Path) -> None:
+    outcome = brdf("fit", TRUTH, "--model", "Ward", "--budget", "2", "-o", "x.safetensors")
+    assert outcome.code == 0
+    assert "lobe2_alpha" in outcome.out
+    assert "cosine-weighted L2" in outcome.out
+    assert outcome.out.splitlines()[-1] == str(tmp_path / "x.safetensors")
+    made = package.load(str(tmp_path / "x.safetensors"))
+    assert made.values["lobe2_alpha"] == package.load(TRUTH).values["lobe2_alpha"] or (
+        abs(made.values["lobe2_alpha"] - 0.15) < 1e-4
+    )
+
+
+def test_json_and_a_report(brdf: Command, tmp_path: Path) -> None:
+    outcome = brdf("fit", TRUTH, "--model", "Ward", "--budget", "2", "--json", "--report", "r.html")
+    found = json.loads(outcome.out)
+    assert abs(found["parameters"]["lobe2_alpha"]["value"] - 0.15) < 1e-4
+    assert found["report"] == "r.html"
+    page = (tmp_path / "r.html").read_text("utf-8")
+    assert page.startswith("<!DOCTYPE html>")
+    assert page.count("<image") >= 9  # eight spheres and the map of residuals
+    assert (tmp_path / found["file"]).is_file()
+
+
+def test_photographs_of_a_ball(brdf: Command, data: Path, tmp_path: Path) -> None:
+    outcome = brdf("fit", data / "spheres" / "diligent_ball", "--model", "Ward", "--budget", "2", "--json")
+    found = json.loads(outcome.out)
+    assert found["data"] == "diligent_ball"
+    assert 0.01 < found["parameters"]["lobe2_alpha"]["value"] < 0.2
+
+
+def test_mistakes(refused: Callable[..., str], tmp_path: Path) -> None:
+    assert "did you mean 'Ward'" in refused("fit", TRUTH, "--model", "Wart")
+    assert "--lobes must be 1 to 3 or auto, got 'many'" in refused("fit", TRUTH, "--model", "Ward", "--lobes", "many")
+    assert "Missing option '--model'".lower() in refused("fit", TRUTH).lower()
+    (tmp_path / "empty.binary").touch()
+    assert "empty.binary" in refused("fit", "empty.binary", "--model", "Ward")
+    assert "no such file" in refused("fit", "nowhere/x.binary", "--model", "Ward")
+    refused("fit", TRUTH, "--model", "Ward", "-o", "nowhere/x.safetensors")
+    refused("fit", TRUTH, "--model", "Ward", "--metric", "l7")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["empty.binary"]

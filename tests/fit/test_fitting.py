@@ -1,0 +1,222 @@
+"""`brdf.fit`: what it recovers, chooses, reports and refuses."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import brdf
+from brdf.errors import BrdfError, ParameterError, ReflectanceError, UnknownNameError
+from brdf.fit import LOSSES, Samples, data_of, samples_of
+from brdf.fit.losses import LOSSES as SCALES
+from brdf.fit.multistart import stratified
+from brdf.metrics import METRICS
+from brdf.models import GGX, BlinnPhong, Lambertian, SmoothDielectric, Ward
+from helpers import random_directions
+
+TRUTH = (Lambertian(albedo=(0.2, 0.3, 0.1)) + Ward(ks=(0.3, 0.2, 0.1), alpha=0.15)).named("truth")
+VALUES = np.array([0.2, 0.3, 0.1, 0.3, 0.2, 0.1, 0.15])
+FEW = stratified(samples_of(TRUTH), SCALES["l2"], 2000, 1)
+
+
+def noisy(seed: int, noise: float = 0.05) -> Samples:
+    factor = 1 + noise * np.random.default_rng(seed).standard_normal(FEW.values.shape)
+    return Samples.of(FEW.wi, FEW.wo, FEW.values * factor, FEW.weight, name="noisy")
+
+
+def test_known_parameters_lie_within_two_standard_errors() -> None:
+    """95 % of normal errors do; the draws are few, so that one parameter may have less."""
+    z = []
+    for seed in range(40):
+        r = brdf.fit(noisy(seed), Ward, budget="quick")
+        z.append([(e.value - v) / e.error for e, v in zip(r.parameters, VALUES, strict=True)])
+    inside = (np.abs(z) < 2).mean(0)
+    assert inside.min() >= 0.85
+    assert inside.mean() >= 0.92
+    assert np.std(z) == pytest.approx(1, abs=0.15)
+
+
+@pytest.mark.parametrize("metric", [*LOSSES, "image"])
+def test_every_metric_finds_an_exact_model(metric: str) -> None:
+    r = brdf.fit(TRUTH, Ward, metric=metric, budget="quick")
+    np.testing.assert_allclose([e.value for e in r.parameters], VALUES, rtol=1e-3)
+    assert set(r.errors) == {*METRICS, "image"}
+    assert max(r.errors.values()) < 1e-3
+    assert r.metric == metric
+
+
+def test_each_loss_wins_in_its_own_metric() -> None:
+    truth = GGX(alpha=0.3, F0=0.6) + Lambertian(albedo=0.1)
+    results = {loss: brdf.fit(truth, Ward, metric=loss, budget="quick", grazing=60) for loss in LOSSES}
+    for name in ("l2", "log", "cube-root"):
+        own = results[name].errors[SCALES[name].metric]
+        assert all(own <= r.errors[SCALES[name].metric] * (1 + 1e-4) for r in results.values()), name
+
+
+def test_reported_metrics_are_those_of_the_samples() -> None:
+    r = brdf.fit(noisy(0), Ward, budget="quick")
+    samples = noisy(0)
+    cosine = samples.wi[:, 2:]
+    weight = samples.weight[:, 0] / samples.weight[:, 0].sum()
+    fitted = r.reflectance(samples.wi, samples.wo)
+    for name, metric in METRICS.items():
+        assert r.errors[name] == pytest.approx(metric(samples.values * cosine, fitted * cosine, weight), rel=1e-6)
+    assert "image" not in r.errors
+
+
+def test_bic_chooses_the_number_of_lobes() -> None:
+    truth = Lambertian(albedo=0.2) + Ward(ks=0.2, alpha=0.08) + Ward(ks=0.3, alpha=0.4)
+    few = stratified(samples_of(truth), SCALES["l2"], 2000, 1)
+    factor = 1 + 0.05 * np.random.default_rng(0).standard_normal(few.values.shape)
+    r = brdf.fit(Samples.of(few.wi, few.wo, few.values * factor, few.weight), Ward, lobes="auto", budget="quick")
+    assert r.lobes == 2
+    assert sorted(e.value for e in r.parameters if e.name.endswith("alpha")) == pytest.approx([0.08, 0.4], rel=0.1)
+    assert brdf.fit(noisy(1), Ward, lobes="auto", budget="quick").lobes == 1
+
+
+def test_the_same_seed_gives_the_same_numbers() -> None:
+    one, two = (brdf.fit(noisy(3), Ward, seed=5, budget=8) for _ in range(2))
+    assert [e.value for e in one.parameters] == [e.value for e in two.parameters]
+    assert one.seed == 5
+
+
+def test_robust_losses_withstand_outliers() -> None:
+    clean = noisy(0, 0.01)
+    values = clean.values.copy()
+    values[::20] *= 5
+    spoiled = Samples.of(clean.wi, clean.wo, values, clean.weight)
+    plain, robust = (brdf.fit(spoiled, Ward, robust=r, budget="quick") for r in (None, "cauchy"))
+    errors = [np.abs(np.array([e.value for e in r.parameters]) / VALUES - 1).max() for r in (plain, robust)]
+    assert errors[1] < 0.03 < errors[0]
+
+
+def test_what_is_held_keeps_its_value() -> None:
+    start = Lambertian(albedo=(0.2, 0.3, 0.1)) + Ward()
+    r = brdf.fit(noisy(0), start, fixed=["lobe1_albedo"], budget="quick")
+    held = [e for e in r.parameters if e.name.startswith("lobe1_albedo")]
+    assert [e.value for e in held] == [0.2, 0.3, 0.1]
+    assert all(e.state == "held" and math.isnan(e.error) for e in held)
+
+
+def test_a_normalisation_beside_a_scale_is_held() -> None:
+    r = brdf.fit(brdf.load("gold-metallic-paint"), brdf.models.SGD, budget="quick")
+    assert {e.name for e in r.parameters if e.state == "held"} == {"K_r", "K_g", "K_b"}
+    assert r.errors["cosine-weighted L2"] < 0.01
+
+
+def test_what_the_data_do_not_show_is_said() -> None:
+    """The highlight of a dull surface has no colour and no width."""
+    r = brdf.fit(_dull(), Lambertian() + GGX(F0=0.0) * 0.0, fixed=["lobe2_base_F0"], budget="quick")
+    alpha = next(e for e in r.parameters if e.name.endswith("alpha"))
+    assert not alpha.error < 0.5 * alpha.value
+    assert any("alpha" in w and "determined" in w for w in r.warnings)
+    assert any("scale" in w for w in r.warnings)
+
+
+def _dull() -> Samples:
+    values = 0.1 * (1 + 0.02 * np.random.default_rng(0).standard_normal(FEW.values.shape))
+    return Samples.of(FEW.wi, FEW.wo, values)
+
+
+def test_anisotropic_data_get_two_widths() -> None:
+    truth = Lambertian(albedo=0.1) + Ward(ks=0.4, alpha_x=0.1, alpha_y=0.3)
+    r = brdf.fit(truth, Ward, budget="quick")
+    found = {e.name: e.value for e in r.parameters}
+    assert found["lobe2_alpha_x"] == pytest.approx(0.1, rel=1e-3)
+    assert found["lobe2_alpha_y"] == pytest.approx(0.3, rel=1e-3)
+
+
+def test_residuals_show_where_a_fit_is_off() -> None:
+    r = brdf.fit(Lambertian(albedo=0.3) + BlinnPhong(ks=0.1, n=60.0), Lambertian, budget=1)
+    assert r.residual_map.shape == (45, 45)
+    highlight, elsewhere = r.residual_map[:20, :4], r.residual_map[:10, 25:30]
+    assert np.nanmean(highlight) < -0.2 < np.nanmean(elsewhere)
+    assert np.isnan(r.residual_map[44, 44])
+
+
+def test_invalid_bins_are_masked(tmp_path: Path) -> None:
+    values = brdf.representations.tables.merl.to_merl(TRUTH)
+    holes = np.random.default_rng(0).random(values.shape[:3]) < 0.3
+    values[holes] = -1
+    table = brdf.representations.tables.merl.from_merl(values, "holes")
+    samples = samples_of(table, 75)
+    assert len(samples) == np.count_nonzero((values >= 0).all(-1)) - _grazing(values)
+    assert len(samples) + samples.left_out == values[..., 0].size
+    r = brdf.fit(table, Ward, budget=2)
+    np.testing.assert_allclose([e.value for e in r.parameters], VALUES, rtol=1e-3)
+
+
+def _grazing(values: np.ndarray) -> int:
+    """Measured bins of which a direction is beyond 75 degrees, by the table's own directions."""
+    from brdf.representations.tables.merl import LAYOUT
+
+    theta_h, theta_d, phi_d = LAYOUT.nodes()
+    wi, wo = LAYOUT.basis.directions(theta_h, theta_d, phi_d[..., :-1])
+    low = np.minimum(wi[..., 2], wo[..., 2]) < math.cos(math.radians(75))
+    return int(np.count_nonzero(low & (values >= 0).all(-1)))
+
+
+def test_rows_of_a_goniometer_are_fitted_as_measured(data: Path) -> None:
+    path = data / "gonio" / "cornell" / "garnet_red.brdf"
+    samples, m = data_of(path)
+    assert len(samples) == 1439
+    assert m is not None
+    r = brdf.fit(path, Ward, budget="quick")
+    assert r.samples == 1439
+    assert r.data == "garnet_red"
+    red, green, _ = (e.value for e in r.parameters[:3])
+    assert red > 5 * green
+
+
+def test_the_result_is_saved_as_a_material(tmp_path: Path) -> None:
+    r = brdf.fit(noisy(0), Ward, budget="quick")
+    r.save(tmp_path / "x.safetensors")
+    again = brdf.load(str(tmp_path / "x.safetensors"))
+    wi, wo = random_directions(50, 1), random_directions(50, 2)
+    np.testing.assert_array_equal(again(wi, wo), r.reflectance(wi, wo))
+    assert again.name == "noisy by Ward"
+    assert "alpha" in r.table()
+    assert json.loads(json.dumps(r.numbers()))["samples"] == len(FEW)
+
+
+MISTAKES = [
+    (TRUTH, {"model": "Wardd"}, UnknownNameError, "did you mean 'Ward'"),
+    (TRUTH, {"model": Ward, "metric": "l1"}, UnknownNameError, "unknown metric 'l1'"),
+    (TRUTH, {"model": Ward, "lobes": 4}, ParameterError, "1 to 3 lobes, got 4"),
+    (TRUTH, {"model": Ward, "lobes": "two"}, ParameterError, 'lobes must be 1 to 3 or "auto"'),
+    (TRUTH, {"model": Ward, "budget": "huge"}, UnknownNameError, "unknown budget"),
+    (TRUTH, {"model": Ward, "budget": 0}, ParameterError, "1 to 4096 searches"),
+    (TRUTH, {"model": Ward, "robust": "l1"}, UnknownNameError, "unknown robust loss"),
+    (TRUTH, {"model": Ward, "fixed": ["alfa"]}, UnknownNameError, "unknown parameter 'alfa'"),
+    (TRUTH, {"model": Ward, "grazing": 95}, ParameterError, "(0, 90] degrees, got 95"),
+    (TRUTH, {"model": Ward, "metric": "image", "robust": "huber"}, ParameterError, "no robust form"),
+    (TRUTH, {"model": 3}, ParameterError, "a model, its class or its name"),
+    (TRUTH, {"model": TRUTH, "lobes": 2}, ParameterError, "lobes are of one model"),
+    (SmoothDielectric(), {"model": Ward}, ReflectanceError, "transmits"),
+    (TRUTH, {"model": SmoothDielectric}, ReflectanceError, "no formula of reflection"),
+    (3, {"model": Ward}, ParameterError, "a reflectance or Samples, got int"),
+]
+
+
+@pytest.mark.parametrize(("given", "options", "error", "message"), MISTAKES)
+def test_mistakes_are_explained(given: object, options: dict, error: type[BrdfError], message: str) -> None:
+    with pytest.raises(error) as caught:
+        brdf.fit(given, **options)
+    assert message in str(caught.value)
+
+
+def test_samples_are_checked() -> None:
+    w = random_directions(4, 1, 0.5)
+    with pytest.raises(ParameterError, match=r"shape \(N, 3\)"):
+        Samples.of(w, w[:3], np.ones(4))
+    with pytest.raises(ParameterError, match="no valid value"):
+        Samples.of(w, w, -np.ones(4))
+    with pytest.raises(ParameterError, match="image metric needs a reflectance"):
+        brdf.fit(Samples.of(w, w, np.ones(4)), Ward, metric="image")
+    some = Samples.of(w, w, [1.0, np.nan, -1.0, 2.0])
+    assert len(some) == 2
+    assert some.left_out == 2
