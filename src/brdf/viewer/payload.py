@@ -108,7 +108,8 @@ def stage_texts() -> dict[str, Any]:
     """The shaders around a material, without `#version` lines."""
     shading = {shape: {"vertex": stages.vertex(shape), "fragment": stages.fragment(shape)} for shape in stages.SHAPES}
     evaluate = {"vertex": stages.vertex("screen"), "fragment": stages.evaluation()}
-    return shading | {"evaluate": evaluate, "tone": stages.part("tone"), "material": stages.MATERIAL}
+    depth = {"vertex": stages.vertex("mesh"), "fragment": stages.depth()}
+    return shading | {"evaluate": evaluate, "depth": depth, "tone": stages.part("tone"), "material": stages.MATERIAL}
 
 
 def _meshes(view: View) -> list[Mesh]:

@@ -15,8 +15,8 @@
  *     note?: string}} MaterialEntry
  * @typedef {{name: string, kind: string, [field: string]: any}} MeshEntry
  * @typedef {{name: string, width: number, height: number, pixels: NumbersRef}} EnvironmentEntry
- * @typedef {{version: number, title: string, stages: {mesh: Stage, sphere: Stage, evaluate: Stage, tone: string,
- *     material: string}, materials: MaterialEntry[], comparison?: any, meshes: MeshEntry[],
+ * @typedef {{version: number, title: string, stages: {mesh: Stage, sphere: Stage, evaluate: Stage, depth: Stage,
+ *     tone: string, material: string}, materials: MaterialEntry[], comparison?: any, meshes: MeshEntry[],
  *     environments: EnvironmentEntry[], library?: any, state?: any}} Contents
  * @typedef {Contents & {bytes: (ref: Ref) => Uint8Array<ArrayBuffer>,
  *     numbers: (ref: NumbersRef) => Uint32Array}} Payload `numbers` gives rows one after the other.

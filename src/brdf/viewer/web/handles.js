@@ -1,0 +1,148 @@
+// Lights as handles on the picture: each stands where a ball around the shape would mirror it.
+
+import { projected } from "./camera.js";
+import { element } from "./element.js";
+import { hexadecimal } from "./controls.js";
+import { angles, direction, dot, plus, unit } from "./vector.js";
+
+/**
+ * @typedef {import("./camera.js").Camera} Camera
+ * @typedef {import("./vector.js").Vector} Vector
+ * @typedef {import("./state.js").Light} Light
+ * @typedef {{middle: Vector, radius: number}} Ball
+ * @typedef {{camera: Camera, ball: Ball, size: {width: number, height: number}, x: number}} Seen the camera of a pane
+ *     that begins at `x`
+ */
+
+/** @param {import("./mesh.js").Mesh} mesh @returns {Ball} about as large as the shape */
+export function ballOf({ least, greatest }) {
+    const half = least.map((low, k) => (greatest[k] - low) / 2).sort((a, b) => a - b);
+    const middle = /** @type {Vector} */ (least.map((low, k) => (greatest[k] + low) / 2));
+    return { middle, radius: half[1] || half[2] || 1 };
+}
+
+/**
+ * The direction to a light whose mirror image on the ball is at a place of the pane; beside the ball, at its rim.
+ * @param {Seen} seen
+ * @param {[number, number]} place
+ * @returns {Vector}
+ */
+export function mirrored({ camera, ball, size }, place) {
+    const half = Math.tan((camera.fov * Math.PI) / 360);
+    const x = ((place[0] - size.width / 2) / (size.height / 2)) * half;
+    const y = ((size.height / 2 - place[1]) / (size.height / 2)) * half;
+    const ray = unit([0, 1, 2].map((k) => x * camera.frame[0][k] + y * camera.frame[1][k] - camera.frame[2][k]));
+    const from = plus(camera.position, ball.middle, -1);
+    const nearest = -dot(from, ray);
+    const closest = plus(from, ray, nearest);
+    const inside = ball.radius ** 2 - dot(closest, closest);
+    const normal = unit(inside > 0 ? plus(closest, ray, -Math.sqrt(inside)) : closest);
+    const view = unit(plus(from, normal, -ball.radius));
+    return unit(plus(normal.map((n) => 2 * dot(normal, view) * n), view, -1));
+}
+
+/**
+ * Where on the pane the ball mirrors a light.
+ * @param {Seen} seen
+ * @param {Vector} toward the light
+ */
+function mirrorPlace({ camera, ball, size }, toward) {
+    let view = unit(plus(camera.position, ball.middle, -1));
+    let at = ball.middle;
+    for (let round = 0; round < 3; round++) {
+        const sum = plus(toward, view);
+        at = plus(ball.middle, dot(sum, sum) > 1e-6 ? unit(sum) : camera.frame[1], ball.radius);
+        view = unit(plus(camera.position, at, -1));
+    }
+    return projected(camera, at, size);
+}
+
+/** @param {Light} light @param {Ball} ball @returns {Vector} the unit vector from the ball to the light */
+function towardLight(light, ball) {
+    if (light.kind === "point") return unit(plus(/** @type {number[]} */ (light.position), ball.middle, -1));
+    return direction(light.theta ?? 0, light.phi ?? 0);
+}
+
+/**
+ * The light, moved into a direction; a point light keeps its distance.
+ * @param {Light} light
+ * @param {Vector} toward
+ * @param {Ball} ball
+ * @returns {Light}
+ */
+export function turnedTo(light, toward, ball) {
+    if (light.kind === "point") {
+        const offset = plus(/** @type {number[]} */ (light.position), ball.middle, -1);
+        return { ...light, position: plus(ball.middle, toward, Math.hypot(...offset)) };
+    }
+    const [theta, phi] = angles(toward);
+    return { ...light, theta, phi };
+}
+
+/**
+ * The light, moved by angles; what the arrow keys do.
+ * @param {Light} light
+ * @param {number} across degrees
+ * @param {number} down degrees
+ * @param {Ball} ball
+ */
+export function turnedBy(light, across, down, ball) {
+    const [theta, phi] = angles(towardLight(light, ball));
+    return turnedTo(light, direction(Math.min(179, Math.max(1, theta + down)), phi + across), ball);
+}
+
+/** The handles over the canvas. */
+export class Handles {
+    /**
+     * @param {{move: (index: number, place: [number, number]) => void,
+     *     nudge: (index: number, across: number, down: number) => void, pick: (index: number) => void}} act
+     */
+    constructor(act) {
+        this.act = act;
+        this.element = element("div", { class: "handles" });
+    }
+
+    /**
+     * @param {Light[]} lights
+     * @param {Seen} seen
+     * @param {number} selected
+     */
+    refresh(lights, seen, selected) {
+        while (this.element.children.length > lights.length) this.element.lastChild?.remove();
+        while (this.element.children.length < lights.length) this.element.append(this.made(this.element.children.length));
+        lights.forEach((light, i) => {
+            const [x, y] = mirrorPlace(seen, towardLight(light, seen.ball));
+            const handle = /** @type {HTMLElement} */ (this.element.children[i]);
+            handle.style.transform = `translate(${(x + seen.x).toFixed(1)}px, ${y.toFixed(1)}px)`;
+            handle.style.setProperty("--light", hexadecimal(light.power.map((p) => p / (Math.max(...light.power) || 1))));
+            handle.classList.toggle("selected", i === selected && lights.length > 1);
+        });
+    }
+
+    /** @param {number} index */
+    made(index) {
+        const { act } = this;
+        const name = `Light ${index + 1}`;
+        const handle = element("button", {
+            type: "button", class: "handle", "aria-label": `${name}: drag, or turn it with the arrow keys`, title: name,
+            onfocus: () => act.pick(index),
+            onkeydown: (/** @type {KeyboardEvent} */ event) => {
+                const arrows = { ArrowLeft: [-5, 0], ArrowRight: [5, 0], ArrowUp: [0, -5], ArrowDown: [0, 5] };
+                const arrow = arrows[/** @type {keyof typeof arrows} */ (event.key)];
+                if (!arrow) return;
+                event.preventDefault();
+                act.nudge(index, arrow[0], arrow[1]);
+            },
+            onpointerdown: (/** @type {PointerEvent} */ event) => {
+                handle.setPointerCapture(event.pointerId);
+                act.pick(index);
+            },
+            onpointermove: (/** @type {PointerEvent} */ event) => {
+                if (!handle.hasPointerCapture(event.pointerId)) return;
+                const box = this.element.getBoundingClientRect();
+                act.move(index, [event.clientX - box.left, event.clientY - box.top]);
+            },
+        });
+        return handle;
+    }
+}
