@@ -1,6 +1,7 @@
 // The drawer that shows the field's plots: lobes, slices, albedo, the slice of the image.
 
 import { element, iconButton } from "./element.js";
+import { VIEWS } from "./views/all.js";
 
 /**
  * @typedef {{update: () => void, destroy: () => void}} Drawn
@@ -12,7 +13,7 @@ export class Drawer {
     constructor(viewer) {
         this.viewer = viewer;
         /** @type {View[]} */
-        this.views = viewer.options.views ?? [];
+        this.views = viewer.options.views ?? VIEWS;
         this.title = element("h2", {});
         this.body = element("div", { class: "view" });
         this.element = element("section", { class: "drawer", "aria-label": "Plot", hidden: true },
