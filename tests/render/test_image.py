@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image as Pictures
 
+from brdf.color import srgb_encode
 from brdf.errors import FileError, SceneError, UnknownFormatError, UnknownNameError
 from brdf.render import Image, captioned
 from brdf.render.image import read_exr
@@ -53,14 +54,34 @@ def test_png_with_alpha_has_its_colours_undivided(tmp_path):
     np.testing.assert_array_equal(np.asarray(Pictures.open(tmp_path / "a.png"))[0, 0], [188, 188, 188, 128])
 
 
+@pytest.mark.parametrize("tone", ["clip", "reinhard", "filmic"])
+def test_tone_curves_keep_middle_grey(tone):
+    assert developed(np.array([MIDDLE_GREY]), tone)[0] == pytest.approx(0.4613561, abs=1e-5)  # sRGB of 0.18
+
+
 @pytest.mark.parametrize("tone", CURVES)
-def test_tone_curves_keep_middle_grey_and_order(tone):
-    middle = developed(np.array([MIDDLE_GREY]), tone)
-    assert middle[0] == pytest.approx(0.4613561, abs=1e-5)  # sRGB of 0.18
-    ramp = developed(np.concatenate([np.linspace(0, 20, 4000), [1e30, np.inf]]), tone)
-    assert (np.diff(ramp) >= 0).all()
-    assert ramp[0] == 0
-    assert 0.99 < ramp[-1] <= 1
+def test_tone_curves_keep_order(tone):
+    grey = np.concatenate([np.linspace(0, 20, 4000), [1e30, np.inf]])
+    ramp = developed(np.repeat(grey[:, None], 3, -1), tone)
+    assert (ramp == ramp[:, :1]).all()
+    assert (np.diff(ramp[:, 0]) >= 0).all()
+    assert ramp[0, 0] == 0
+    assert 0.98 < ramp[-1, 0] <= 1
+
+
+def test_the_neutral_curve_is_the_published_one():
+    """By hand from the published definition: fractions without rounding."""
+    colours = [(0.5, 0.3, 0.2), (0.5, 0.3, 0.04), (2.0, 0.5, 0.1), (1.0, 1.0, 1.0)]
+    peak, scaled, kept = 1 - 0.0576 / 1.44, 0.46 / 1.96, 1 / 1.15
+    expected = [(0.46, 0.26, 0.16), (0.47, 0.27, 0.01),
+                (peak, peak * (scaled * kept + 1 - kept), peak * (0.06 / 1.96 * kept + 1 - kept)),
+                3 * (1 - 0.0576 / 0.44,)]  # fmt: skip
+    np.testing.assert_allclose(developed(np.array(colours), "neutral"), srgb_encode(np.array(expected)), atol=1e-9)
+
+
+def test_linear_is_not_encoded():
+    np.testing.assert_array_equal(developed(np.array([0.0, 0.2, 3.0]), "linear"), [0, 0.2, 1])
+    np.testing.assert_array_equal(developed(np.array([0.1]), "linear", exposure=1), [0.2])
 
 
 def test_nothing_is_left_behind_when_writing_fails(tmp_path):

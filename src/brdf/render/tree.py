@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 from ..errors import SceneError
 from . import tree_kernels as kernels
 from .mesh import Mesh
-from .visibility import nudge
 
 Floats = NDArray[np.float32]
 
@@ -30,9 +29,6 @@ class MeshTexels:
     nodes: Floats
     """(2 N, 4): for each box (least corner, first triangle of a leaf or -1), (greatest corner, number of triangles of
     a leaf, or the node that follows its subtree), in depth-first order; none casts no shadows"""
-    has_uv: bool
-    nudge: float
-    """By which rays start off the surface."""
 
 
 def texels(mesh: Mesh, shadows: bool = True) -> MeshTexels:
@@ -47,7 +43,7 @@ def texels(mesh: Mesh, shadows: bool = True) -> MeshTexels:
     faces[:, :3, :3], faces[:, 3:, :3] = corners[order], mesh.normals[order]
     if mesh.uvs is not None:
         faces[:, :3, 3], faces[:, 3:, 3] = mesh.uvs[order, :, 0], mesh.uvs[order, :, 1]
-    return MeshTexels(faces.reshape(-1, 4), nodes, mesh.uvs is not None, nudge(mesh))
+    return MeshTexels(faces.reshape(-1, 4), nodes)
 
 
 def _tree(corners: Floats, mesh: Mesh) -> tuple[NDArray[np.int64], Floats]:

@@ -87,11 +87,6 @@ class UnitSphere:
         return below
 
 
-def nudge(mesh: Mesh) -> float:
-    """By how much rays start off the surface: well above the rounding of float32 positions."""
-    return 1e-4 * mesh.size + 4e-7 * float(np.abs(mesh.bounds).max())
-
-
 class Triangles:
     """A mesh in an embree scene. Raises SceneError where embree is not installed."""
 
@@ -106,7 +101,7 @@ class Triangles:
             ) from None
         self._corners = np.ascontiguousarray(mesh.vertices[mesh.faces])
         self._mesh = mesh
-        self._nudge = np.float32(nudge(mesh))
+        self._nudge = mesh.nudge
         self._scene = EmbreeScene()
         TriangleMesh(self._scene, mesh.vertices, mesh.faces)
         above = mesh.bounds[1] + 1

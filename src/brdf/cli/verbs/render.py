@@ -31,11 +31,17 @@ def command(
     ] = None,
     no_compare: Annotated[bool, typer.Option("--no-compare", help="The material alone, no second half.")] = False,
     samples: Annotated[int, typer.Option(help="Directions to the environment per pixel.")] = 16,
+    supersampling: Annotated[int, typer.Option(metavar="N", help="N x N rays per pixel.")] = 2,
     exposure: Annotated[float, typer.Option(help="Stops.")] = 0.0,
-    tone: Annotated[str, typer.Option(help="Tone curve of a .png: filmic, reinhard or clip.")] = "filmic",
+    tone: Annotated[
+        str, typer.Option(help="Tone curve of a .png: filmic, neutral, reinhard, clip or linear.")
+    ] = "filmic",
     background: Annotated[str, typer.Option(help="gradient, environment, transparent, or R/G/B.")] = "gradient",
     no_shadows: Annotated[bool, typer.Option("--no-shadows", help="The mesh does not shadow itself.")] = False,
     seed: Annotated[int, typer.Option(help="The same seed gives the same picture.")] = 0,
+    backend: Annotated[
+        str, typer.Option(help="cpu, or gl: a graphics card, or OpenGL's software driver (needs brdf[gl]).")
+    ] = "cpu",
     json: arguments.AsJson = False,
 ) -> None:
     """Render a material.
@@ -49,6 +55,7 @@ def command(
       brdf render gold-metallic-paint
       brdf render GGX:alpha=0.2,F0=1/.78/.34 --mesh sphere --light directional:theta=40 -o ggx.png
       brdf render measured.binary --compare fitted.safetensors --size 1200x800
+      brdf render chrome --mesh bunny.ply --env studio --backend gl --tone neutral
     """
     from ...errors import ParameterError
     from ...render import captioned, render, render_halves
@@ -71,9 +78,11 @@ def command(
         "env": _number_or_text(env),
         "size": pixels,
         "samples": samples,
+        "supersampling": supersampling,
         "shadows": not no_shadows,
         "background": _colour_or_text(background),
         "seed": seed,
+        "backend": _available(backend),
     }
     if other is None:
         render(m, **scene).save(path, tone=tone, exposure=exposure)
@@ -148,6 +157,21 @@ def _require_picture(path: Path) -> None:
     if path.suffix.lower() not in WRITERS:
         raise UnknownFormatError(path, f"pictures are written as {' or '.join(WRITERS)}; choose one of them.")
     output.require_writable(path)
+
+
+def _available(backend: str) -> str:
+    """The same, or "cpu" and a note where "gl" has no driver."""
+    from ...errors import DriverError
+
+    if backend == "gl":
+        from ...render.gl import card
+
+        try:
+            card()
+        except DriverError as error:
+            output.note(f"{error}; the CPU draws instead")
+            return "cpu"
+    return backend
 
 
 def _number_or_text(text: str | None) -> str | float | None:

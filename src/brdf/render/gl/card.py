@@ -21,6 +21,9 @@ HEADER = "#version 330 core\n"
 LIST_WIDTH = 2048
 """Texels in a row of a texture that holds a list."""
 
+FIRST_UNIT = 1
+"""Unit 0 stays with the samplers that nothing is bound to: two kinds of samplers on one unit draw nothing."""
+
 TYPES = {"UNSIGNED_BYTE": "f1", "HALF_FLOAT": "f2", "FLOAT": "f4"}
 """moderngl's names of the types of texels."""
 
@@ -56,6 +59,7 @@ class Card:
     def __enter__(self) -> Self:
         self._lock.acquire()
         self.context.__enter__()  # a context of another library may be the current one
+        self.context.enable_only(self.context.NOTHING)
         return self
 
     def __exit__(
@@ -79,7 +83,8 @@ class Card:
         except self._gl.Error as error:
             reason = " ".join(str(error).split())[:300]
             raise DriverError(f"{self.name} refuses a shader: {reason}") from None
-        return Program(made, self._own(self.context.vertex_array(made, [])))
+        units = int(self.context.info["GL_MAX_TEXTURE_IMAGE_UNITS"])
+        return Program(made, self._own(self.context.vertex_array(made, [])), units)
 
     def texture(self, texels: NDArray[Any]) -> Any:
         """A texture of float32 (rows, columns, channels), read texel by texel."""
@@ -130,9 +135,9 @@ class Card:
 class Program:
     """Shaders that draw vertices without attributes."""
 
-    def __init__(self, program: Any, vertices: Any) -> None:
-        self._program, self._vertices = program, vertices
-        self._bound: list[tuple[int, Any]] = []
+    def __init__(self, program: Any, vertices: Any, units: int) -> None:
+        self._program, self._vertices, self._units = program, vertices, units
+        self._bound: list[Any] = []
 
     def __setitem__(self, name: str, value: ArrayLike) -> None:
         """Set a uniform; drivers drop those without effect."""
@@ -141,15 +146,17 @@ class Program:
             numbers = np.asarray(value)
             uniform.write(numbers.astype("i4" if numbers.dtype.kind in "biu" else "f4").tobytes())
 
-    def bind(self, unit: int, name: str, texture: Any) -> None:
-        """Have the sampler `name` read a texture, on a unit of its own."""
+    def bind(self, name: str, texture: Any) -> None:
+        """Have the sampler `name` read a texture, on a unit of its own. Raises DriverError for more than it has."""
         if name in self._program:
-            self._program[name].value = unit
-            self._bound.append((unit, texture))
+            if len(self._bound) == self._units - FIRST_UNIT:
+                raise DriverError(f"the driver reads no more than {self._units - FIRST_UNIT} textures at a time")
+            self._program[name].value = FIRST_UNIT + len(self._bound)
+            self._bound.append(texture)
 
     def draw(self, count: int) -> None:
         """Draw triangles of `count` vertices."""
-        for unit, texture in self._bound:
+        for unit, texture in enumerate(self._bound, FIRST_UNIT):
             texture.use(unit)
         self._vertices.render(vertices=count)
 
