@@ -146,7 +146,8 @@ function lightSection(viewer) {
 function pictureSection(viewer) {
     const exposure = stateSlider(viewer, "exposure", { label: "Exposure", scale: { low: -4, high: 4, unit: " EV" } });
     const tone = choice({
-        label: "Tone", options: () => [["filmic", "Filmic"], ["reinhard", "Reinhard"], ["clip", "Clip"]],
+        label: "Tone", options: () => [["filmic", "Filmic"], ["reinhard", "Reinhard"], ["clip", "Clip"],
+            ["neutral", "Neutral"], ["linear", "Linear"]],
         read: () => viewer.state.tone, write: (value) => viewer.set({ tone: value }),
     });
     const backdrop = choice({

@@ -12,7 +12,7 @@
  */
 
 export const COMPARISONS = ["first", "second", "split", "side", "difference"];
-export const TONES = ["clip", "reinhard", "filmic"];
+export const TONES = ["clip", "reinhard", "filmic", "neutral", "linear"];
 export const BACKDROPS = ["gradient", "environment", "plain"];
 export const MOST_LIGHTS = 8;
 
