@@ -25,7 +25,8 @@ export function slider({ label, doc, scale, read, write }) {
     const { low, high, log } = scale;
     const position = (/** @type {number} */ v) =>
         STEPS * (log ? Math.log(Math.max(v, low) / low) / Math.log(high / low) : (v - low) / (high - low));
-    const value = (/** @type {number} */ p) => (log ? low * (high / low) ** (p / STEPS) : low + ((high - low) * p) / STEPS);
+    const value = (/** @type {number} */ p) =>
+        log ? low * (high / low) ** (p / STEPS) : low + ((high - low) * p) / STEPS;
     const range = element("input", {
         type: "range", min: 0, max: STEPS, step: 1, "aria-label": label, title: doc,
         oninput: () => write(Number(value(Number(range.value)).toPrecision(4))),
@@ -113,7 +114,9 @@ export function select({ label, options, read, write }) {
  * @returns {Control}
  */
 export function toggle({ label, read, write }) {
-    const box = element("input", { type: "checkbox", role: "switch", "aria-label": label, onchange: () => write(box.checked) });
+    const box = element("input", {
+        type: "checkbox", role: "switch", "aria-label": label, onchange: () => write(box.checked),
+    });
     const refresh = () => void (box.checked = read());
     return { element: element("label", { class: "row toggle" }, caption(label), box), refresh };
 }

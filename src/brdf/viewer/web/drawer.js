@@ -13,11 +13,12 @@ export class Drawer {
     constructor(viewer) {
         this.viewer = viewer;
         /** @type {View[]} */
-        this.views = viewer.options.views ?? VIEWS;
+        this.views = VIEWS;
         this.title = element("h2", {});
         this.body = element("div", { class: "view" });
-        this.element = element("section", { class: "drawer", "aria-label": "Plot", hidden: true },
-            element("header", {}, this.title, iconButton("close", "Close the plot", () => viewer.set({ view: null }))), this.body);
+        const close = iconButton("close", "Close the plot", () => viewer.set({ view: null }));
+        const head = element("header", {}, this.title, close);
+        this.element = element("section", { class: "drawer", "aria-label": "Plot", hidden: true }, head, this.body);
         /** @type {Drawn | null} */
         this.drawn = null;
         this.shown = "";

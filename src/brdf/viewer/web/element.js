@@ -1,7 +1,8 @@
 // Elements of the page from one expression.
 
 /**
- * An element with attributes (those that begin with "on" are listeners; false and undefined leave one out) and children.
+ * An element with attributes and children. Attributes that begin with "on" are listeners; false and undefined leave
+ * one out.
  * @template {keyof HTMLElementTagNameMap} Tag
  * @param {Tag} tag
  * @param {Record<string, any>} attributes
@@ -23,6 +24,7 @@ export function element(tag, attributes = {}, ...children) {
 /** Strokes in a square of 20 units. @type {Record<string, string>} */
 const ICONS = {
     save: "M10 3v9m-3.5-3.5L10 12l3.5-3.5M4 13v3h12v-3",
+    open: "M10 12V3M6.5 6.5 10 3l3.5 3.5M4 13v3h12v-3",
     theme: "M10 3a7 7 0 1 0 0 14zM10 3a7 7 0 0 1 0 14",
     help: "M7.5 7.5a2.5 2.5 0 1 1 3.6 2.2c-.8.4-1.1.9-1.1 1.8M10 14.4v.2",
     panel: "M3.5 4.5h13v11h-13zM12 4.5v11",

@@ -29,22 +29,24 @@ class Frame {
         this.title = element("h1", {});
         this.about = element("p", { class: "about" });
         this.message = element("div", { class: "message", role: "status" });
-        this.open = element("button", { type: "button", class: "lead", onclick: () => this.choose() }, "Open…");
-        this.fold = iconButton("panel", "Panel (p)", () => this.toggle(), { "aria-expanded": "true" });
-        this.aim = iconButton("light", "Move the light (l, or Shift and drag)", () => this.toggleLight(), { "aria-pressed": "false" });
+        this.fold = iconButton("panel", "Panel (p)", () => this.toggle());
+        this.aim = iconButton("light", "Move the light (l, or Shift and drag)", () => this.toggleLight());
         const tools = element("div", { class: "tools", role: "toolbar", "aria-label": "Tools" },
             this.aim,
+            iconButton("open", "Open a file (o)", () => this.drop.choose()),
             iconButton("save", "Save a PNG (s)", () => this.save()),
             iconButton("theme", "Dark or light (d)", () => this.switchTheme()),
             iconButton("help", "Help (?)", () => this.help.showModal()),
             this.fold);
         this.side = element("aside", { class: "panel", "aria-label": "Settings" }, this.panel.element);
         this.drop = new Drop(viewer, (text, wrong) => this.notice(text, wrong));
+        const { canvas, handles, drawer } = viewer;
+        const title = element("div", { class: "title" }, this.title, this.about);
         this.element = element("div", { class: "viewer" },
-            element("div", { class: "picture-area" }, viewer.canvas, viewer.handles.element, viewer.divider.element, ...this.labels),
-            element("header", { class: "head" }, element("div", { class: "title" }, this.title, this.about), tools),
-            viewer.drawer.element, this.side, this.message, this.help,
-            element("p", { id: viewer.canvas.getAttribute("aria-describedby"), class: "unseen" }, KEYS_TEXT));
+            element("div", { class: "picture-area" }, canvas, handles.element, viewer.divider.element, ...this.labels),
+            element("header", { class: "head" }, title, tools),
+            drawer.element, this.side, this.message, this.help,
+            element("p", { id: canvas.getAttribute("aria-describedby"), class: "unseen" }, KEYS_TEXT));
         this.drop.listen(this.element);
         if (viewer.root.clientWidth && viewer.root.clientWidth < NARROW) this.side.classList.add("folded");
         this.timer = 0;
@@ -58,11 +60,12 @@ class Frame {
     refresh() {
         const { viewer } = this;
         const materials = viewer.materials();
-        this.title.textContent = materials.map((m) => m.name).filter((name, i, all) => all.indexOf(name) === i).join(" · ");
+        const names = new Set(materials.map((material) => material.name));
+        this.title.textContent = [...names].join(" · ");
         const first = viewer.slots.at(0).source;
-        this.about.textContent = materials.length > 1 ? "" : [first.kind, size(first.nbytes)].filter(Boolean).join(" · ");
-        const shape = viewer.state.mesh;
-        viewer.canvas.setAttribute("aria-label", `${materials.map((m) => m.name).join(" beside ")} on a ${shape}`);
+        const about = [first.kind, size(first.nbytes)].filter(Boolean).join(" · ");
+        this.about.textContent = materials.length > 1 ? "" : about;
+        viewer.canvas.setAttribute("aria-label", `${[...names].join(" beside ")} on a ${viewer.state.mesh}`);
         this.labels.forEach((label, slot) => (label.textContent = `${NAMES[slot]}  ${viewer.slots.at(slot).name}`));
         this.panel.refresh();
         this.aim.setAttribute("aria-pressed", String(viewer.lighting));
@@ -84,7 +87,9 @@ class Frame {
         if (a.hidden) return;
         const { clientWidth: width, clientHeight: height } = this.viewer.canvas;
         const free = this.free({ width, height });
-        const line = compare === "side" ? panes[1].place.x : compare === "split" ? divider * width : free.x + free.width;
+        let line = free.x + free.width;
+        if (compare === "side") line = panes[1].place.x;
+        if (compare === "split") line = divider * width;
         const foot = `${height - free.y - free.height + 16}px`;
         a.style.bottom = b.style.bottom = foot;
         a.style.right = `${width - line + 12}px`;
@@ -128,10 +133,6 @@ class Frame {
         this.viewer.themed();
     }
 
-    choose() {
-        this.drop.choose();
-    }
-
     async save() {
         const picture = await this.viewer.png();
         if (!picture) return;
@@ -166,10 +167,12 @@ class Frame {
         else if (key === "?") this.help.showModal();
         else if (key === "p") this.toggle();
         else if (key === "l") this.toggleLight();
+        else if (key === "o") this.drop.choose();
         else if (key === "s") this.save();
         else if (key === "d") this.switchTheme();
         else if (key === "g") viewer.set({ mesh: next(viewer.payload.meshes, viewer.state.mesh) });
-        else if (key === "[" || key === "]") viewer.set({ exposure: viewer.state.exposure + (key === "]" ? 0.25 : -0.25) });
+        else if (key === "[") viewer.set({ exposure: viewer.state.exposure - 0.25 });
+        else if (key === "]") viewer.set({ exposure: viewer.state.exposure + 0.25 });
         else return false;
         return true;
     }

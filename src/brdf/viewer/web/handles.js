@@ -108,13 +108,15 @@ export class Handles {
      * @param {number} selected
      */
     refresh(lights, seen, selected) {
-        while (this.element.children.length > lights.length) this.element.lastChild?.remove();
-        while (this.element.children.length < lights.length) this.element.append(this.made(this.element.children.length));
+        const made = this.element.children;
+        while (made.length > lights.length) this.element.lastChild?.remove();
+        while (made.length < lights.length) this.element.append(this.made(made.length));
         lights.forEach((light, i) => {
             const [x, y] = mirrorPlace(seen, towardLight(light, seen.ball));
-            const handle = /** @type {HTMLElement} */ (this.element.children[i]);
+            const handle = /** @type {HTMLElement} */ (made[i]);
+            const brightest = Math.max(...light.power) || 1;
             handle.style.transform = `translate(${(x + seen.x).toFixed(1)}px, ${y.toFixed(1)}px)`;
-            handle.style.setProperty("--light", hexadecimal(light.power.map((p) => p / (Math.max(...light.power) || 1))));
+            handle.style.setProperty("--light", hexadecimal(light.power.map((p) => p / brightest)));
             handle.classList.toggle("selected", i === selected && lights.length > 1);
         });
     }

@@ -2,6 +2,8 @@
 
 import { element, iconButton } from "./element.js";
 
+const TITLE = "Hands and keys";
+
 const HANDS = [
     ["Drag", "turn the object"],
     ["Shift and drag, or drag a ring", "move the light; without one, turn the surroundings"],
@@ -19,11 +21,12 @@ const KEYS = [
     ["g", "next shape"],
     ["[  ]", "darker, brighter"],
     ["l  p  d", "light by dragging, panel, dark or light"],
-    ["s  ?", "save a PNG, this help"],
+    ["o  s  ?", "open a file, save a PNG, this help"],
 ];
 
 /** For those who cannot see the picture. */
-export const KEYS_TEXT = "Arrow keys turn the object, with Shift the light; plus and minus zoom; question mark opens the help.";
+export const KEYS_TEXT =
+    "Arrow keys turn the object, with Shift the light; plus and minus zoom; question mark opens the help.";
 
 /** @returns {HTMLDialogElement} */
 export function helpDialog() {
@@ -31,11 +34,11 @@ export function helpDialog() {
         element("dl", {}, ...rows.flatMap(([what, does]) => [element("dt", {}, what), element("dd", {}, does)]));
     /** @type {HTMLDialogElement} */
     const dialog = element("dialog", {
-        class: "help", "aria-labelledby": "brdf-help",
+        class: "help", "aria-label": TITLE,
         onclick: (/** @type {MouseEvent} */ event) => event.target === dialog && dialog.close(),
     },
         element("div", { class: "sheet" },
-            element("header", {}, element("h2", { id: "brdf-help" }, "Hands and keys"), iconButton("close", "Close", () => dialog.close())),
+            element("header", {}, element("h2", {}, TITLE), iconButton("close", "Close", () => dialog.close())),
             element("h3", {}, "Mouse and touch"), list(HANDS),
             element("h3", {}, "Keys, on the picture"), list(KEYS)));
     return dialog;

@@ -4,8 +4,9 @@ import { framing, placed, slopesOf } from "./camera.js";
 
 /**
  * @typedef {import("./camera.js").Rectangle} Rectangle
- * @typedef {{slots: number[], shown: "first" | "second" | "split" | "difference", place: Rectangle, free: Rectangle}} Pane
- *     `slots`: 0 for A, 1 for B; `place` in the page's pixels from the top left corner of the canvas, `free` within it
+ * @typedef {"first" | "second" | "split" | "difference"} Shown
+ * @typedef {{slots: number[], shown: Shown, place: Rectangle, free: Rectangle}} Pane `slots`: 0 for A, 1 for B; `place`
+ *     in the page's pixels from the top left corner of the canvas, `free` within it
  */
 
 /**
@@ -19,13 +20,14 @@ export function panes(compare, canvas, free) {
     if (compare !== "side") {
         const slots = { first: [0], second: [1] }[compare] ?? [0, 1];
         const shown = compare === "second" ? "first" : compare;
-        return [{ slots, shown: /** @type {Pane["shown"]} */ (shown), place: whole, free }];
+        return [{ slots, shown: /** @type {Shown} */ (shown), place: whole, free }];
     }
     const left = Math.round(free.x + free.width / 2);
+    const right = { ...whole, x: left, width: canvas.width - left };
     const half = { width: free.width / 2, y: free.y, height: free.height };
     return [
         { slots: [0], shown: "first", place: { ...whole, width: left }, free: { ...half, x: free.x } },
-        { slots: [1], shown: "first", place: { ...whole, x: left, width: canvas.width - left }, free: { ...half, x: 0 } },
+        { slots: [1], shown: "first", place: right, free: { ...half, x: 0 } },
     ];
 }
 

@@ -5,15 +5,23 @@ import { element, iconButton } from "./element.js";
 import { lightControls } from "./panel_lights.js";
 import { parameterControls } from "./panel_parameters.js";
 import { NAMES } from "./slots.js";
-import { MOST_LIGHTS, RANGES } from "./state.js";
+import { COMPARISONS, MOST_LIGHTS, RANGES } from "./state.js";
 
 /**
  * @typedef {import("./viewer.js").Viewer} Viewer
  * @typedef {import("./controls.js").Control} Control
  */
 
+/** @type {Record<string, string>} */
+const COMPARED = { first: "A", second: "B", split: "Split", side: "Side", difference: "A − B" };
+
 /** @param {string} word */
 const capital = (word) => word[0].toUpperCase() + word.slice(1);
+
+/** What is chosen by its name. @param {{name: string}[]} entries @returns {[string, string][]} */
+function named(entries) {
+    return entries.map(({ name }) => [name, capital(name)]);
+}
 
 /**
  * @param {Viewer} viewer
@@ -58,7 +66,10 @@ function materialSection(viewer) {
         }),
     });
     const note = element("p", { class: "note" });
-    const parameters = changing(() => `${slot()} ${viewer.state.materials[slot()]}`, () => parameterControls(viewer, slot()));
+    const parameters = changing(
+        () => `${slot()} ${viewer.state.materials[slot()]}`,
+        () => parameterControls(viewer, slot()),
+    );
     const reset = iconButton("reset", "Reset the parameters", () =>
         viewer.set({ parameters: viewer.state.parameters.with(slot(), {}) }), { class: "icon action" });
     const made = section("Material", [which, chosen, parameters, plain(note)], { action: reset });
@@ -81,7 +92,7 @@ function plain(made) {
 function compareSection(viewer) {
     const how = choice({
         label: "Comparison", hidden: true,
-        options: () => [["first", "A"], ["second", "B"], ["split", "Split"], ["side", "Side"], ["difference", "A − B"]],
+        options: () => COMPARISONS.map((key) => [key, COMPARED[key]]),
         read: () => viewer.state.compare,
         write: (compare) => viewer.set({ compare }),
     });
@@ -90,8 +101,8 @@ function compareSection(viewer) {
     const made = section("Compare", [how, gain, plain(number)], { open: viewer.slots.sources.length > 1 });
     const refresh = () => {
         gain.element.hidden = viewer.state.compare !== "difference";
-        const psnr = viewer.psnr();
-        number.textContent = psnr === null ? "" : `PSNR ${Number.isFinite(psnr) ? `${psnr.toFixed(1)} dB` : "∞: they agree"}`;
+        const { psnr } = viewer.measure;
+        number.textContent = psnr === Infinity ? "A and B agree" : `PSNR ${psnr?.toFixed(1)} dB`;
         number.hidden = psnr === null;
         made.refresh();
     };
@@ -100,8 +111,10 @@ function compareSection(viewer) {
 
 /** @param {Viewer} viewer @returns {Control} */
 function shapeSection(viewer) {
-    const options = () => viewer.payload.meshes.map(({ name }) => /** @type {[string, string]} */ ([name, capital(name)]));
-    const given = { label: "Shape", options, read: () => viewer.state.mesh, write: (/** @type {string} */ mesh) => viewer.set({ mesh }) };
+    const given = {
+        label: "Shape", options: () => named(viewer.payload.meshes), read: () => viewer.state.mesh,
+        write: (/** @type {string} */ mesh) => viewer.set({ mesh }),
+    };
     return section("Shape", [viewer.payload.meshes.length > 4 ? select(given) : choice({ ...given, hidden: true })]);
 }
 
@@ -109,7 +122,7 @@ function shapeSection(viewer) {
 function lightSection(viewer) {
     const around = select({
         label: "Surroundings",
-        options: () => [["", "None"], ...viewer.payload.environments.map(({ name }) => /** @type {[string, string]} */ ([name, capital(name)]))],
+        options: () => [["", "None"], ...named(viewer.payload.environments)],
         read: () => viewer.state.environment ?? "",
         write: (name) => viewer.set({ environment: name || null }),
     });
@@ -132,7 +145,9 @@ function lightSection(viewer) {
             viewer.select(count);
         },
     }, "Add a light");
-    const shadows = toggle({ label: "Shadows", read: () => viewer.state.shadows, write: (on) => viewer.set({ shadows: on }) });
+    const shadows = toggle({
+        label: "Shadows", read: () => viewer.state.shadows, write: (on) => viewer.set({ shadows: on }),
+    });
     const made = section("Light", [around, turn, strength, lights, plain(add), shadows]);
     const refresh = () => {
         turn.element.hidden = strength.element.hidden = !viewer.state.environment;

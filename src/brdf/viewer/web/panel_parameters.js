@@ -46,12 +46,17 @@ function channels(given, read, write) {
     const { low } = given.scale;
     const all = slider({
         ...given, read: mean,
-        write: (value) => write(read().map((x) => (low < 0 || mean() === 0 ? x + value - mean() : (x * value) / mean()))),
+        write: (value) => {
+            const now = mean();
+            write(read().map((x) => (low < 0 || now === 0 ? x + value - now : (x * value) / now)));
+        },
     });
     const each = CHANNELS.map((channel, k) => slider({
-        ...given, label: `${given.label} ${channel}`, read: () => read()[k], write: (value) => write(read().with(k, value)),
+        ...given, label: `${given.label} ${channel}`, read: () => read()[k],
+        write: (value) => write(read().with(k, value)),
     }));
-    const body = element("div", { class: "changing channels", hidden: true }, ...each.map((control) => control.element));
+    const rows = each.map((control) => control.element);
+    const body = element("div", { class: "changing channels", hidden: true }, ...rows);
     const unfold = element("button", {
         type: "button", class: "unfold", "aria-expanded": "false", "aria-label": `Channels of ${given.label}`,
         onclick: () => {

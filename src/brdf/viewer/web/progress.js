@@ -33,6 +33,9 @@ const PLACES = Array.from({ length: SUBSAMPLES }, (_, n) => {
     return /** @type {[number, number]} */ ([(i + (j + 0.5) / SIDE) / SIDE, (j + (i + 0.5) / SIDE) / SIDE]);
 });
 
+/** The only pass of a quick picture. */
+const FIRST = { number: 0, place: /** @type {[number, number]} */ ([0.5, 0.5]) };
+
 export class Progress {
     /** @type {Shot[]} */
     shots = [];
@@ -148,7 +151,8 @@ export class Progress {
             const picture = (this.pictures[0][i] ??= new Picture());
             picture.restart(shot.width, shot.height);
             const scene = { ...shot.scene, shadows: shot.scene.shadows && this.effort > VERY_SLOW };
-            this.renderer.draw({ ...shot, scene }, { number: 0, place: [0.5, 0.5], samples, total: samples }, 0, shot.height);
+            const pass = { ...FIRST, samples, total: samples };
+            this.renderer.draw({ ...shot, scene }, pass, 0, shot.height);
             this.renderer.add(picture);
         });
         this.present(this.pictures[0].slice(0, shots.length));
@@ -193,7 +197,8 @@ export class Progress {
         const bottom = Math.max(this.row, low);
         const top = Math.min(high, bottom + this.rows);
         const number = picture.passes;
-        const pass = { number, place: PLACES[number % SUBSAMPLES], samples: phase.samples, total: phase.samples * phase.passes };
+        const { samples, passes } = phase;
+        const pass = { number, place: PLACES[number % SUBSAMPLES], samples, total: samples * passes };
         this.renderer.draw(shot, pass, this.row ? bottom : 0, top >= high ? shot.height : top);
         this.row = top;
         if (top >= high) {
@@ -242,7 +247,11 @@ function scaled(shot, scale) {
     return { ...shot, width, height };
 }
 
-/** The rows of a shot, from the bottom, in which its mesh may be seen. @param {Shot} shot @returns {[number, number]} */
+/**
+ * The rows of a shot, from the bottom, in which its mesh may be seen.
+ * @param {Shot} shot
+ * @returns {[number, number]}
+ */
 function rowsOf({ camera, scene, width, height }) {
     const { least, greatest } = scene.mesh;
     const corners = Array.from({ length: 8 }, (_, i) => least.map((low, k) => ((i >> k) & 1 ? greatest[k] : low)));

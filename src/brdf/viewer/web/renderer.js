@@ -10,8 +10,9 @@ import { direction, RADIANS } from "./vector.js";
  * @typedef {import("./camera.js").Rectangle} Rectangle
  * @typedef {import("./material.js").Material} Material
  * @typedef {{kind: string, power: number[], theta?: number, phi?: number, position?: number[]}} Light
- * @typedef {{mesh: import("./mesh.js").Mesh, lights: Light[], environment: import("./environment.js").Environment | null,
- *     turn: number, strength: number, shadows: boolean}} Scene `turn` in degrees about +y
+ * @typedef {import("./environment.js").Environment} Environment
+ * @typedef {{mesh: import("./mesh.js").Mesh, lights: Light[], environment: Environment | null, turn: number,
+ *     strength: number, shadows: boolean}} Scene `turn` in degrees about +y
  * @typedef {{scene: Scene, material: Material, camera: Camera, width: number, height: number}} Shot
  * @typedef {{number: number, place: [number, number], samples: number, total: number}} Pass `place` within the
  *     pixel; `total`: of samples, after all passes
@@ -205,8 +206,8 @@ export class Renderer {
         const { environment } = shot.scene;
         this.presenting ??= new Program(gl, COVER, presentation(this.stages.tone));
         const program = this.presenting.use();
-        const around = how.background === "environment" && environment;
-        const backdrop = around && this.textures(around.backdrop, { map: [around.backdrop.map, 4, around.backdrop.width] });
+        const around = how.background === "environment" ? environment?.backdrop : undefined;
+        const backdrop = around && this.textures(around, { map: [around.map, 4, around.width] });
         program.setAll({
             ...cameraUniforms(shot.camera, shot.scene.mesh),
             ...environmentUniforms(shot.scene),

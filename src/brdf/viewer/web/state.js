@@ -78,8 +78,7 @@ function validated(key, value, payload) {
         case "view": return value === null || typeof value === "string" ? value : undefined;
         case "pan": return numbers(value, 2)?.map((x) => clamped(x, [-2, 2]));
         case "materials": {
-            const known = numbers(value, 2)?.every((i) => Number.isInteger(i) && i >= 0 && i < payload.materials.length);
-            return known ? value : undefined;
+            return numbers(value, 2)?.every((i) => i in payload.materials) ? value : undefined;
         }
         case "parameters": return Array.isArray(value) && value.length === 2 ? value.map(plainNumbers) : undefined;
         case "lights": return Array.isArray(value) ? value.map(light).filter(Boolean).slice(0, MOST_LIGHTS) : undefined;

@@ -9,6 +9,7 @@ import { ballOf, Handles, mirrored, turnedBy, turnedTo } from "./handles.js";
 import { frame } from "./frame.js";
 import { listen } from "./input.js";
 import { Framer, panes } from "./layout.js";
+import { Measure } from "./measure.js";
 import { decodedMesh } from "./mesh.js";
 import { decode } from "./payload.js";
 import { Progress } from "./progress.js";
@@ -19,9 +20,8 @@ import { clamped, decodedHash, encoded, initialState, merged, RANGES, TONES } fr
 /**
  * @typedef {import("./state.js").State} State
  * @typedef {import("./renderer.js").Shot} Shot
- * @typedef {{picture?: HTMLElement, embedded?: boolean, views?: import("./drawer.js").View[]}}
- *     Options `picture`: what stands in the root until the first frame is drawn; `embedded`: within another page, whose
- *     address is not ours
+ * @typedef {{picture?: HTMLElement, embedded?: boolean}} Options `picture`: what stands in the root until the first
+ *     frame is drawn; `embedded`: within another page, whose address is not ours
  */
 
 const LARGEST_PICTURE = 2.2e6;  // pixels
@@ -58,6 +58,7 @@ export class Viewer {
         this.slots = new Slots(gl, payload);
         this.renderer = new Renderer(gl, payload.stages);
         this.evaluator = new Evaluator(gl, payload.stages);
+        this.measure = new Measure(this.evaluator, this.slots, () => this.frame.refresh());
         this.framer = new Framer();
         this.ending = new AbortController();
         /** @type {Map<string, any>} */
@@ -160,6 +161,7 @@ export class Viewer {
 
     /** Makes everything show the state. @param {string[]} keys what changed of it; nothing: all */
     refresh(keys = []) {
+        this.measure.follow(this.state.compare !== "first");
         this.frame.refresh();
         this.drawer.refresh();
         this.arrange();
@@ -201,7 +203,7 @@ export class Viewer {
         const pane = this.panes.findLast((p) => place[0] >= p.place.x) ?? this.panes[0];
         const seen = this.seen(pane);
         const toward = mirrored(seen, [place[0] - pane.place.x, place[1]]);
-        this.set({ lights: this.state.lights.map((light, i) => (i === index ? turnedTo(light, toward, seen.ball) : light)) });
+        this.set({ lights: this.state.lights.with(index, turnedTo(this.state.lights[index], toward, seen.ball)) });
     }
 
     /** @param {number} across degrees @param {number} down degrees @param {number} index */
@@ -209,7 +211,7 @@ export class Viewer {
         const { lights, turn } = this.state;
         const ball = ballOf(this.mesh);
         if (!lights.length) this.set({ turn: turn + across });
-        else this.set({ lights: lights.map((light, i) => (i === index ? turnedBy(light, across, down, ball) : light)) });
+        else this.set({ lights: lights.with(index, turnedBy(lights[index], across, down, ball)) });
     }
 
     // ---- the picture
@@ -242,7 +244,8 @@ export class Viewer {
 
     resize() {
         const { canvas, ratio } = this;
-        const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((side) => Math.max(1, Math.round(side * ratio)));
+        const sides = [canvas.clientWidth, canvas.clientHeight];
+        const [width, height] = sides.map((side) => Math.max(1, Math.round(side * ratio)));
         if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
         this.arrange();
         this.progress.changed();
@@ -280,7 +283,8 @@ export class Viewer {
     placeOf({ place }) {
         const { canvas, ratio } = this;
         const x = Math.round(place.x * ratio);
-        return { x, y: 0, width: Math.min(canvas.width, Math.round((place.x + place.width) * ratio)) - x, height: canvas.height };
+        const end = Math.min(canvas.width, Math.round((place.x + place.width) * ratio));
+        return { x, y: 0, width: end - x, height: canvas.height };
     }
 
     /** @returns {Shot[]} */
@@ -338,12 +342,6 @@ export class Viewer {
         return [this.slots.at(0), ...(several ? [this.slots.at(1)] : [])];
     }
 
-    /** How far B is from A [dB], where that is known. */
-    psnr() {
-        const known = this.slots.comparison;
-        return known ? known.psnr ?? Infinity : null;
-    }
-
     /** Shows another material as A, or as B where two are compared. @param {import("./material.js").Source} source */
     add(source) {
         const index = this.slots.sources.push(source) - 1;
@@ -364,6 +362,7 @@ export class Viewer {
         clearTimeout(this.remembering);
         this.progress.dispose();
         this.drawer.close();
+        this.measure.dispose();
         this.evaluator.dispose();
         this.renderer.dispose();
         this.slots.dispose();
