@@ -1,69 +1,14 @@
 // Directional albedo over the angle of incidence.
 
-import { channelOf, DEGREE, luminances, Pairs, short, spherical, ticks } from "./numbers.js";
-import { axes, CHANNELS, curve, Figure, PAIR, rule } from "./plot.js";
-import { namesOf } from "./view.js";
+import { DEGREE, Pairs, short, spherical, ticks } from "./numbers.js";
+import { axes, curve, heightOf, rule } from "./plot.js";
+import { curvesOf, curveView } from "./view.js";
 
 /** Degrees from the normal. */
 const ANGLES = [...Array.from({ length: 17 }, (_, i) => 5 * i), 83, 86, 88];
 
 /** Half vectors: their zenith angles crowd at the normal, as a power of even steps, and so do narrow lobes. */
 const [ZENITHS, AZIMUTHS, POWER] = [96, 32, 3];
-
-class Albedo {
-    /**
-     * @param {HTMLElement} container
-     * @param {import("./view.js").Context} context
-     */
-    constructor(container, context) {
-        this.context = context;
-        /** @type {import("./view.js").Series[]} */
-        this.series = [];
-        this.figure = new Figure(container, (width) => this.drawn(width));
-    }
-
-    /** The curves: share of the light that is reflected over its angle; by channel, of two materials the luminance. */
-    data() {
-        return this.series;
-    }
-
-    update() {
-        const materials = this.context.materials();
-        const names = namesOf(materials);
-        const values = materials.map((material) => albedos(this.context.evaluator, material, ANGLES));
-        this.series = materials.length > 1
-            ? values.map((list, m) => ({ name: names[m], ...PAIR[m], x: ANGLES, y: luminances(list) }))
-            : CHANNELS.map((channel, c) => ({ ...channel, x: ANGLES, y: channelOf(values[0], c) }));
-        const told = [0, 60, 80].map((angle) => ANGLES.indexOf(angle));
-        const what = this.series.map(({ name, y }) => {
-            return `${name}: ${told.map((i) => `${short(y[i])} at ${ANGLES[i]}°`).join(", ")}`;
-        });
-        this.figure.show(`Directional albedo of ${names.join(" and ")}. ${what.join("; ")}.`, this.series);
-    }
-
-    /** @param {number} width */
-    drawn(width) {
-        const height = Math.round(Math.min(320, 0.62 * width + 40));
-        const largest = Math.max(1, ...this.series.flatMap((series) => Array.from(series.y)));
-        const marks = ticks(largest);
-        const degrees = [0, 15, 30, 45, 60, 75, 90].map((at) => ({ at, text: `${at}°` }));
-        const shares = marks.map((at) => ({ at, text: short(at) }));
-        const x = { low: 0, high: 90, ticks: degrees, label: "light, from the normal" };
-        const y = { low: 0, high: marks[marks.length - 1], ticks: shares, label: "share reflected" };
-        const { px, py, inside, parts, left, right } = axes(width, height, x, y);
-        inside.append(
-            rule(0, py(1), right - left, py(1), { stroke: "var(--quiet)" }),
-            ...this.series.map(({ x: angle, y: list, ...style }) => {
-                return curve(Array.from(list, (share, i) => [px(angle[i]), py(share)]), style);
-            }),
-        );
-        return { height, parts };
-    }
-
-    destroy() {
-        this.figure.destroy();
-    }
-}
 
 /**
  * Directional albedos as RGBA, by a midpoint rule over the half vector: d wi = 4 (wo . h) dh. What is transmitted and
@@ -116,12 +61,30 @@ function halfVectors(turns, extent) {
     return found;
 }
 
-export const view = {
+export const view = curveView({
     id: "albedo",
     title: "Albedo",
-    /**
-     * @param {HTMLElement} container
-     * @param {import("./view.js").Context} context
-     */
-    create: (container, context) => new Albedo(container, context),
-};
+    series({ evaluator }, materials, names) {
+        return curvesOf(names, materials.map((material) => albedos(evaluator, material, ANGLES)), ANGLES);
+    },
+    what: () => "Share of the light that is reflected, over its angle,",
+    told: ({ y }) => [0, 60, 80].map((angle) => `${short(y[ANGLES.indexOf(angle)])} at ${angle}°`).join(", "),
+    drawn(width, series) {
+        const height = heightOf(width);
+        const shares = ticks(Math.max(1, ...series.flatMap(({ y }) => Array.from(y))));
+        const x = {
+            low: 0, high: 90, ticks: [0, 15, 30, 45, 60, 75, 90].map((at) => ({ at, text: `${at}°` })),
+            label: "light, from the normal",
+        };
+        const y = {
+            low: 0, high: shares[shares.length - 1], ticks: shares.map((at) => ({ at, text: short(at) })),
+            label: "share reflected",
+        };
+        const { px, py, inside, parts } = axes(width, height, x, y);
+        inside.append(
+            rule(0, py(1), width, py(1), { stroke: "var(--quiet)" }),
+            ...series.map((one) => curve(Array.from(one.y, (share, i) => [px(one.x[i]), py(share)]), one)),
+        );
+        return { height, parts };
+    },
+});

@@ -1,10 +1,10 @@
 // The image slice: f over half and difference angle at one azimuth of the difference.
 
-import { choice, slider, toggle } from "../controls.js";
+import { choice, toggle } from "../controls.js";
 import { encoded } from "../metrics.js";
-import { decades, DEGREE, fromHalf, luminances, Pairs, short, superscript } from "./numbers.js";
+import { decades, DEGREE, fromHalf, luminances, Pairs, powers, short } from "./numbers.js";
 import { axes, Figure, rule, svg, text } from "./plot.js";
-import { choices, namesOf, remembered } from "./view.js";
+import { choices, degrees, namesOf, remembered } from "./view.js";
 
 /** Values along an axis, and pixels for each. */
 const [SIZE, PIXELS] = [144, 3];
@@ -30,24 +30,18 @@ class ImageSlice {
         this.context = context;
         this.container = container;
         this.options = remembered(context, "image", { azimuth: 90, root: true, shown: "colour" });
-        const option = (/** @type {Partial<typeof this.options>} */ change) => {
-            Object.assign(this.options, change);
+        const { options } = this;
+        const change = (/** @type {import("./view.js").Options} */ some) => {
+            Object.assign(options, some);
             this.update();
         };
         this.refresh = choices(container, [
             choice({
                 label: "Show", options: () => [["colour", "Colour"], ["luminance", "Luminance"]],
-                read: () => this.options.shown, write: (shown) => option({ shown }),
+                read: () => options.shown, write: (shown) => change({ shown }),
             }),
-            slider({
-                label: "Azimuth φd", doc: "Azimuth of the light about the half vector",
-                scale: { low: 0, high: 180, unit: "°" },
-                read: () => this.options.azimuth,
-                write: (value) => option({ azimuth: Math.min(180, Math.max(0, Math.round(value))) }),
-            }),
-            toggle({
-                label: "√ θh", read: () => this.options.root, write: (root) => option({ root }),
-            }),
+            degrees({ options, change }, "azimuth", "Azimuth φd", "Azimuth of the light about the half vector", 180),
+            toggle({ label: "√ θh", read: () => options.root, write: (root) => change({ root }) }),
         ]);
         /** @type {Slice[]} */
         this.slices = [];
@@ -164,10 +158,9 @@ class ImageSlice {
         const cells = Array.from({ length: 64 }, (_, i) => svg("rect", {
             x: x + i * step, y, width: step + 0.5, height: 8, fill: `rgb(${cividis((i + 0.5) / 64)})`,
         }));
-        const marks = Array.from({ length: Math.floor(high) - low + 1 }, (_, i) => low + i).flatMap((power) => {
-            const at = x + ((power - low) / (high - low)) * width;
-            const mark = rule(at, y + 8, at, y + 12, { stroke: "var(--quiet)" });
-            return [mark, text(`10${superscript(power)}`, at, y + 24)];
+        const marks = powers(low, high).flatMap((power) => {
+            const at = x + ((Math.log10(power.at) - low) / (high - low)) * width;
+            return [rule(at, y + 8, at, y + 12, { stroke: "var(--quiet)" }), text(power.text, at, y + 24)];
         });
         return [...cells, ...marks, text("f [1/sr]", x + width, y + 24, "end")];
     }

@@ -1,10 +1,9 @@
 // The lobe for one light as a solid that can be turned: its radius in a direction is f.
 
-import { slider, toggle } from "../controls.js";
 import { element } from "../element.js";
 import { decades, DEGREE, luminances, Pairs, short, spherical } from "./numbers.js";
 import { legend, PAIR } from "./plot.js";
-import { choices, namesOf, remembered } from "./view.js";
+import { choices, lightAngle, logarithmic, namesOf, remembered } from "./view.js";
 
 /** Nodes over the zenith on either side of the mirror direction, and over the azimuth on either side of it. */
 const [ZENITHS, AZIMUTHS] = [22, 36];
@@ -25,18 +24,13 @@ class Solid {
     constructor(container, context) {
         this.context = context;
         this.options = remembered(context, "lobe", { log: true, angle: 45, azimuth: -60, elevation: 25 });
-        const option = (/** @type {Partial<typeof this.options>} */ change) => {
-            Object.assign(this.options, change);
+        const { options } = this;
+        const change = (/** @type {import("./view.js").Options} */ some) => {
+            Object.assign(options, some);
             this.update();
         };
-        this.refresh = choices(container, [
-            slider({
-                label: "Light", doc: "Angle of the light from the normal", scale: { low: 0, high: 85, unit: "°" },
-                read: () => this.options.angle,
-                write: (value) => option({ angle: Math.min(85, Math.max(0, Math.round(value))) }),
-            }),
-            toggle({ label: "Logarithmic", read: () => this.options.log, write: (log) => option({ log }) }),
-        ]);
+        const chosen = { options, change };
+        this.refresh = choices(container, [lightAngle(chosen), logarithmic(chosen)]);
         this.canvas = element("canvas", { role: "img", tabindex: 0 });
         this.legend = legend();
         container.append(this.canvas, this.legend.element);

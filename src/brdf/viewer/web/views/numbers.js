@@ -104,6 +104,17 @@ export function decades(lists, most) {
 }
 
 /**
+ * Powers of ten from 10^`low` on, every `step`, as marks of an axis.
+ * @param {number} low whole
+ * @param {number} high
+ */
+export function powers(low, high, step = 1) {
+    return Array.from({ length: Math.floor((high - low) / step) + 1 }, (_, i) => {
+        return { at: 10 ** (low + step * i), text: `10${superscript(low + step * i)}` };
+    });
+}
+
+/**
  * Round numbers from 0 up to what holds all values.
  * @param {number} largest
  * @param {number} count about how many
@@ -131,7 +142,7 @@ export function inPlane(evaluator, material, angle, views) {
 }
 
 /** Viewing angles [degrees] close enough for narrow lobes. */
-export const ANGLES_SEEN = Float64Array.from({ length: 1799 }, (_, i) => (i - 899) / 10);
+export const SEEN = Float64Array.from({ length: 1799 }, (_, i) => (i - 899) / 10);
 
 /**
  * A number for people, three digits.
@@ -148,6 +159,6 @@ export function short(value) {
 }
 
 /** @param {number} whole */
-export function superscript(whole) {
+function superscript(whole) {
     return String(whole).replace(/./g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]);
 }

@@ -131,6 +131,14 @@ export class Figure {
 }
 
 /**
+ * Of a figure with axes.
+ * @param {number} width
+ */
+export function heightOf(width) {
+    return Math.round(Math.min(320, 0.62 * width + 40));
+}
+
+/**
  * @typedef {{low: number, high: number, ticks: {at: number, text: string}[], label: string}} Axis
  */
 
