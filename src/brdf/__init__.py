@@ -37,6 +37,7 @@ _NAMES = {
     "profiles": "profiles",
     "render": "render",
     "reproduce": "reproduce",
+    "view": "viewer",
 }
 """Public name: the module it lives in, or is."""
 

@@ -33,11 +33,16 @@ def test_json_names_the_function_and_the_files(brdf: Command, tmp_path: Path) ->
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("GGX", "m.hlsl"), "brdf: m.hlsl: shaders are written as .glsl or .wgsl; choose one of them."),
+        (("GGX", "m.hlsl"), "brdf: m.hlsl: exports are .glsl, .wgsl or .html; choose one of them."),
         (("GGX", "none/m.glsl"), "brdf: none/m.glsl: cannot be written (No such file or directory); choose another"),
         (("GGX", "m.glsl", "--function", "1st"), "a function's name has letters, digits, single underscores"),
         (("GGX", "m.glsl", "--as", "tabel"), "did you mean 'table'"),
         (("GXG", "m.glsl"), "did you mean 'GGX'"),
+        (("GGX", "GGX", "m.glsl"), "a shader is written of one reflectance, got 2; a page, .html, takes several"),
+        (("GGX", "m.glsl", "--mesh", "sphere"), "'mesh' is how a page starts and has no effect with .glsl"),
+        (("GGX", "m.html", "--function", "shade"), "a page has no function to name"),
+        (("GGX", "m.html", "--tone", "film"), "unknown tone curve 'film'"),
+        (("GGX", "m.html", "--light", "spot:1/2/3"), "unknown light 'spot'"),
     ],
 )
 def test_mistakes_are_one_line(refused: Refused, tmp_path: Path, arguments: tuple[str, ...], message: str) -> None:
@@ -48,3 +53,9 @@ def test_mistakes_are_one_line(refused: Refused, tmp_path: Path, arguments: tupl
 def test_measured_without_a_formula_is_baked_on_request(brdf: Command, refused: Refused, data: Path) -> None:
     measured = next((data / "rgl").glob("*.bsdf"))
     assert "bake it first" in refused("export", measured, "m.glsl")
+
+
+def test_materials_become_a_page(brdf: Command, tmp_path: Path) -> None:
+    outcome = brdf("export", "GGX:alpha=0.2", "Lambertian", "two.html", "--mesh", "sphere", "--env", "0.5", "--json")
+    assert json.loads(outcome.out) == {"files": {"two.html": (tmp_path / "two.html").stat().st_size}}
+    assert "<title>GGX:alpha=0.2 · Lambertian</title>" in (tmp_path / "two.html").read_text("utf-8")

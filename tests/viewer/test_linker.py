@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import posixpath
 import re
 import shutil
 import subprocess
@@ -9,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from brdf.viewer.linker import linked
+from brdf.viewer.linker import linked, sources
 
 MODULES = {
     "main.js": """\
@@ -86,3 +87,27 @@ def test_comments_are_left_out() -> None:
 def test_what_cannot_be_linked(modules: dict[str, str], message: str) -> None:
     with pytest.raises(ValueError, match=re.escape(message)):
         linked("main.js", modules)
+
+
+def test_every_module_of_the_viewer_links_and_is_used_by_an_entry() -> None:
+    modules = {path for path in sources() if path.endswith(".js")}
+    seen = set()
+    for path in modules:
+        assert linked(path).startswith('"use strict";\n')
+    for entry in ("boot.js", "main.js", "widget.js"):
+        seen |= reached(entry)
+    assert modules - seen <= {"metrics.js"}
+
+
+def reached(entry: str) -> set[str]:
+    """A module and all that it imports."""
+    found: set[str] = set()
+    open_ = [entry]
+    while open_:
+        path = open_.pop()
+        found.add(path)
+        for target in re.findall(r'^import \{[^}]*\} from "([^"]+)";', sources()[path], re.M):
+            place = posixpath.normpath(posixpath.join(posixpath.dirname(path), target))
+            if place not in found:
+                open_.append(place)
+    return found

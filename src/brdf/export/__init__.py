@@ -1,9 +1,9 @@
-"""Reflectances as shaders for other programs: GLSL and WGSL text, with the textures it reads."""
+"""Reflectances for other programs: shaders with the textures they read, and pages for browsers."""
 
 from ..callable_module import make_callable
 from ..shaders import LANGUAGES
-from .shaders import Exported, export, language_of
+from .dispatch import Exported, export, format_of
 
-__all__ = ["LANGUAGES", "Exported", "export", "language_of"]
+__all__ = ["LANGUAGES", "Exported", "export", "format_of"]
 
 make_callable(__name__, export)

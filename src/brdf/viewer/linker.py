@@ -12,12 +12,11 @@ from collections.abc import Mapping
 from functools import cache
 from importlib import resources
 
+from .compact import compacted
+
 IMPORT = re.compile(r'^import \{([^}]*)\} from "([^"]+)";\n', re.M)
 EXPORT = re.compile(r"^export (?:async )?(?:function\*?|class|const|let) (\w+)", re.M)
 UNKNOWN = re.compile(r"^\s*(?:import\b(?! *\()|export\b).*", re.M)
-
-COMMENTS = re.compile(r"^[ \t]*//[^\n]*\n|^[ \t]*/\*\*.*?\*/[ \t]*\n|/\*\* (?:[^*\n]|\*(?!/))*\*/ ?", re.M | re.S)
-"""Whole lines of comment, and the types that stand within a line."""
 
 DEFAULT = "entry_default"
 
@@ -50,8 +49,12 @@ def linked(entry: str, modules: Mapping[str, str] | None = None) -> str:
     _visit(entry, texts, order, [])
     numbers = {path: number for number, path in enumerate(order)}
     parts = [_wrapped(path, texts[path], numbers) for path in order]
-    ending = f"export default {_module(numbers[entry])}.{DEFAULT};\n" if "export default" in texts[entry] else ""
-    return '"use strict";\n' + "".join(parts) + ending
+    body = "".join(parts)
+    if "export default" in texts[entry]:
+        body += f"export default {_module(numbers[entry])}.{DEFAULT};\n"
+    else:
+        body = f"{{\n{body}}}\n"  # a script's names are those of the whole page, but for a block's
+    return '"use strict";\n' + compacted(body)
 
 
 def _visit(path: str, texts: Mapping[str, str], order: list[str], open_: list[str]) -> None:
@@ -81,7 +84,7 @@ def _wrapped(path: str, text: str, numbers: Mapping[str, int]) -> str:
         names = ", ".join(re.sub(r"\s+as\s+", ": ", name.strip()) for name in match[1].split(",") if name.strip())
         return f"const {{ {names} }} = {_module(numbers[_resolved(path, match[2])])};\n"
 
-    body = COMMENTS.sub("", IMPORT.sub(bound, text))
+    body = IMPORT.sub(bound, text)
     exported = EXPORT.findall(body)
     body = re.sub(r"^export (?=(?:async )?(?:function|class|const|let) )", "", body, flags=re.M)
     if re.search(r"^export default ", body, re.M):

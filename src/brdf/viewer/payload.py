@@ -21,6 +21,7 @@ from ..render.tone import CURVES
 from ..shaders import stages
 from . import environments, materials, meshes
 from .blob import Blob, container
+from .library import library
 
 VERSION = 1
 """Of the description."""
@@ -94,6 +95,7 @@ def payload(shown: Sequence[Reflectance], view: View | None = None, compare: boo
         "comparison": _comparison(shown) if compare and len(shown) > 1 else None,
         "meshes": [meshes.described(mesh, blob) for mesh in _meshes(view)],
         "environments": [environments.described(environment, blob) for environment in _environments(view)],
+        "library": library(),
         "state": view.state,
     }
     return container(description, blob)

@@ -1,4 +1,4 @@
-"""`brdf export`: a material as a shader for other programs."""
+"""`brdf export`: a material as a shader for other programs, or as a page for a browser."""
 
 from __future__ import annotations
 
@@ -7,46 +7,60 @@ from typing import Annotated
 
 import typer
 
-from .. import arguments, output
+from .. import arguments, output, scene
 from ..baking import Anisotropic, As, Budget, given
 
 
 def command(
-    material: arguments.Material,
-    out: Annotated[Path, typer.Argument(metavar="OUT", help="Shader, .glsl or .wgsl.")],
-    function: Annotated[str | None, typer.Option(metavar="NAME", help="Name of the function. [brdf_MATERIAL]")] = None,
+    materials: Annotated[
+        list[str],
+        typer.Argument(metavar="MATERIAL...", help="One; for a page, several to compare. As for other verbs."),
+    ],
+    out: Annotated[Path, typer.Argument(metavar="OUT", help="Shader, .glsl or .wgsl, or page, .html.")],
+    function: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Name of a shader's function. [brdf_MATERIAL]")
+    ] = None,
     representation: As = None,
     budget: Budget = None,
     anisotropic: Anisotropic = False,
+    mesh: scene.Mesh = "teapot",
+    light: scene.Light = None,
+    env: scene.Env = None,
+    exposure: scene.Exposure = 0.0,
+    tone: scene.Tone = "filmic",
+    no_shadows: scene.NoShadows = False,
     json: arguments.AsJson = False,
 ) -> None:
-    """Write a material as a shader: a function of two directions in GLSL or WGSL.
+    """Write a material as a shader, or materials as a page to turn them in.
 
-    Beside OUT go OUT.json, the values of its parameters and what its textures are, and OUT.bin, their texels. A comment
-    in the shader shows its use. With --as or --budget the material is baked first, which measured ones without a
-    formula need.
+    A shader is a function of two directions in GLSL or WGSL. Beside OUT go OUT.json, the values of its parameters and
+    what its textures are, and OUT.bin, their texels; a comment in the shader shows its use. A page is one file that
+    needs no other and no network; --mesh, --light, --env, --exposure, --tone and --no-shadows are how it starts.
+    With --as or --budget the material is baked first, which shaders of measured ones without a formula need.
 
     \b
     Examples:
       brdf export GGX:alpha=0.2,F0=1/.78/.34 gold.glsl
-      brdf export measured.binary measured.wgsl
-      brdf export measured.bsdf measured.glsl --as slice-stack --budget 64K
+      brdf export measured.bsdf measured.wgsl --as slice-stack --budget 64K
+      brdf export measured.binary baked.safetensors compared.html --mesh sphere
     """
     from ...conversion import bake
-    from ...export import export, language_of
+    from ...export import export, format_of
 
-    m = arguments.load(material)
     options = given(budget=budget, anisotropic=anisotropic)
-    language_of(out)
+    start = scene.given(mesh, light, env, exposure, tone, no_shadows)
+    page = format_of(out) == ".html"
     output.require_writable(out)
+    shown = arguments.load_all(materials) if len(materials) > 1 else [arguments.load(materials[0])]
     if representation or options:
         with output.working("baking"):
-            m = bake(m, representation, **options)
-    done = export(m, out, function)
+            shown = [bake(m, representation, **options) for m in shown]
+    with output.working(f"writing {out.name}"):
+        done = export(shown, out, function, **start)
     sizes = {str(path): path.stat().st_size for path in done.files}
     if json:
-        output.print_json({"function": done.function, "files": sizes})
+        output.print_json(({} if page else {"function": done.function}) | {"files": sizes})
         return
     print(done.files[0].resolve())
     rows = [(path, output.format_bytes(size)) for path, size in sizes.items()]
-    output.print_table(("", done.function), rows)
+    output.print_table(("", done.function or "page"), rows)

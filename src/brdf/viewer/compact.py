@@ -1,0 +1,94 @@
+"""Scripts without comments and needless space, for pages that are sent around; what they do stays the same."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+PLAIN = re.compile(
+    r"""(?P<comment>//[^\n]*|/\*.*?\*/)
+    |(?P<space>\s+)
+    |(?P<text>"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])*')
+    |(?P<word>[\w$]+)
+    |(?P<mark>=>|\+\+|--|[^\w\s])""",
+    re.S | re.X,
+)
+REGULAR = re.compile(r"/(?:\\.|\[(?:\\.|[^\]\\\n])*\]|[^/\\\[\n])+/[a-z]*")
+
+BEFORE_VALUES = frozenset({"return", "typeof", "case", "of", "in", "do", "else", "void", "delete", "await", "yield"})
+"""Words after which a slash begins a regular expression; after other words it divides."""
+
+OPEN_ENDED = frozenset("{([,;=&|?:<>*%!~^.") | {"=>"}
+"""Marks after which no statement ends at the end of a line."""
+
+CONTINUING = frozenset("})],;=&|?:<>*%.") | {"=>"}
+"""Marks before which none does."""
+
+
+def compacted(text: str) -> str:
+    """The script in fewer characters. Line ends at which a statement may end are kept."""
+    out: list[str] = []
+    last, gap = "", ""
+    for kind, token in _tokens(text):
+        if kind in ("comment", "space"):
+            gap = "\n" if "\n" in token or gap == "\n" else " "
+            continue
+        if gap == "\n" and last and last not in OPEN_ENDED and token not in CONTINUING:
+            out.append("\n")
+        elif gap and (_joins(last[-1:], token[0])):
+            out.append(" ")
+        out.append(token)
+        last, gap = token, ""
+    return "".join(out) + "\n"
+
+
+def _joins(left: str, right: str) -> bool:
+    """Whether two characters mean something else without space between them."""
+    word = re.compile(r"[\w$]")
+    return bool(word.match(left) and word.match(right)) or (left == right and left in "+-")
+
+
+def _tokens(text: str) -> Iterator[tuple[str, str]]:
+    """Kind and text of each token. Raises ValueError for a template without end."""
+    at, last = 0, ""
+    while at < len(text):
+        if text[at] == "`":
+            end = _template_end(text, at)
+            kind, token = "text", text[at:end]
+        elif text[at] == "/" and text[at + 1 : at + 2] not in ("/", "*") and _expects_value(last):
+            kind, token = "text", REGULAR.match(text, at)[0]  # type: ignore[index]
+        else:
+            match = PLAIN.match(text, at)
+            assert match is not None
+            kind, token = str(match.lastgroup), match[0]
+        yield kind, token
+        at += len(token)
+        if kind not in ("comment", "space"):
+            last = token
+
+
+def _expects_value(last: str) -> bool:
+    if re.fullmatch(r"[\w$]+", last):
+        return last in BEFORE_VALUES
+    return last not in (")", "]", "}", "++", "--") and last[:1] not in ("'", '"', "`")
+
+
+def _template_end(text: str, start: int) -> int:
+    """Behind the template literal that begins at `start`; expressions in it may hold others."""
+    at = start + 1
+    while at < len(text):
+        if text[at] == "\\":
+            at += 2
+        elif text[at] == "`":
+            return at + 1
+        elif text.startswith("${", at):
+            depth, inner = 1, at + 2
+            for kind, token in _tokens(text[inner:]):
+                inner += len(token)
+                depth += (token == "{") - (token == "}") if kind == "mark" else 0
+                if not depth:
+                    break
+            at = inner
+        else:
+            at += 1
+    raise ValueError("a template literal has no end")

@@ -1,0 +1,84 @@
+"""Files dropped onto the page are shown, and what is none is said."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from tests.viewer.pages import Opened, address, opened
+
+import brdf
+from brdf.models import GGX
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+DROP = """([name, text]) => {
+    const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([bytes].flat(), name));
+    for (const type of ["dragover", "drop"]) {
+        viewer.canvas.dispatchEvent(new DragEvent(type, { bubbles: true, cancelable: true, dataTransfer }));
+    }
+}"""
+
+MERL = (
+    "Uint8Array.from(atob(fill), (c) => c.charCodeAt(0))",
+    "[new Int32Array([90, 90, 180]), new Float64Array(3 * 90 * 90 * 180).fill(fill * 1500)]",
+)
+"""A file of one value everywhere, made in the page: it has 33 MB."""
+
+
+@pytest.fixture(scope="module")
+def viewer(browser: Browser, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Opened]:
+    path = tmp_path_factory.mktemp("page") / "ball.html"
+    brdf.export(GGX(alpha=0.2).named("ball"), path, mesh="sphere", lights="directional:theta=40,phi=20")
+    with opened(browser) as page:
+        yield page.open(address(path))
+
+
+def dropped(viewer: Opened, name: str, data: bytes) -> str:
+    """What the page says when it is done."""
+    viewer.page.evaluate(DROP, [name, base64.b64encode(data).decode()])
+    viewer.until("!/^$|^Reading/.test(document.querySelector('.message').textContent)")
+    return viewer.page.locator(".message").inner_text()
+
+
+def test_files_of_three_formats_are_shown(viewer: Opened, tmp_path: Path, data: Path) -> None:
+    GGX(alpha=0.4, F0=(0.1, 0.5, 0.9)).save(tmp_path / "model.safetensors")
+    said = dropped(viewer, "model.safetensors", (tmp_path / "model.safetensors").read_bytes())
+    assert said == "GGX is shown as A."
+    shiny = viewer.picture()
+    red, _, blue = shiny.reshape(-1, 3).astype(float).mean(0)
+    assert blue > red
+    viewer.page.evaluate(DROP.replace("text", "fill").replace(*MERL), ["measured.binary", 0.3])
+    viewer.until("viewer.state.materials[0] === 2")
+    matte = viewer.picture()
+    red, green, blue = matte.reshape(-1, 3).astype(float).mean(0)
+    assert blue > green > red  # of which the format keeps 1.66, 1.15 and 1 times as much
+    assert (matte != shiny).any()
+    measured = min((data / "rgl").glob("*.bsdf"), key=lambda path: path.stat().st_size)
+    assert dropped(viewer, measured.name, measured.read_bytes()).endswith("is shown as A.")
+    assert viewer.state["materials"][0] == 3
+    assert viewer.page.evaluate("viewer.gl.getError()") == 0
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("notes.txt", b"nothing of all that, but long enough", "notes.txt is no MERL .binary, no RGL .bsdf and no"),
+        ("cut.binary", bytes([90, 0, 0, 0, 90, 0, 0, 0, 180, 0, 0, 0]) + bytes(100), "cut.binary"),
+        ("empty.bsdf", b"", "empty.bsdf has 0 bytes, too few"),
+        ("evil.safetensors", (1 << 40).to_bytes(8, "little") + b"{" * 20, "evil.safetensors"),
+    ],
+)
+def test_what_cannot_be_read_is_said_and_nothing_changes(
+    viewer: Opened, name: str, content: bytes, message: str
+) -> None:
+    before = viewer.state
+    assert message in dropped(viewer, name, content)
+    assert viewer.page.locator(".message.wrong").is_visible()
+    assert viewer.state == before
