@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import container
 from .errors import CorruptFileError, ParameterError, ReflectanceError
-from .formula import engine
+from .formula import engine, interpreted
 from .formula.backends import backend_of, is_foreign
 from .formula.vec import Vec
 from .geometry.arguments import MIDDLE, as_directions, broadcast_directions, broadcast_places, flat_places
@@ -188,7 +188,7 @@ class Reflectance(ABC):
             return backend.stack(engine.run(self, i, o, clamp, place).components)
         i, o = (Vec(w[0], w[1], w[2]) for w in (wi, wo))
         place = Vec(*MIDDLE) if uv is None else Vec(uv[0], uv[1])
-        return type(wi)(*engine.run(self, i, o, clamp, place))
+        return type(wi)(*interpreted.run(self, i, o, clamp, place))
 
     # ---- sampling --------------------------------------------------------------------------------------------
 
