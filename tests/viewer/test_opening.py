@@ -7,9 +7,10 @@ import threading
 import types
 import urllib.request
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
+from tests.viewer.pages import opened
 
 import brdf
 import containers
@@ -18,6 +19,9 @@ from brdf.models import GGX, Lambertian
 from brdf.viewer import opening
 from brdf.viewer.payload import View
 from brdf.viewer.widget import _widget_class
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 LIMIT = 60.0
 
@@ -33,6 +37,7 @@ def test_the_page_is_served_with_its_data_and_picture() -> None:
         page = got(server.address).decode()
         assert "<title>GGX · Lambertian:albedo=.5</title>" in page
         assert 'id="payload"' not in page
+        assert '<img data-src="picture"' in page  # asked for where the viewer cannot run, for it takes seconds to draw
         assert "connect-src 'self'" in page
         about, _ = containers.read(got(f"{server.address}payload"))
         assert about["title"] == "GGX · Lambertian:albedo=.5"
@@ -117,3 +122,23 @@ def test_mistakes_are_found_before_anything_is_served() -> None:
         brdf.view("GXG")
     with pytest.raises(UnknownNameError, match="unknown mesh 'teapott'"):
         brdf.view(GGX(), mesh="teapott")
+
+
+def test_an_open_page_follows_the_file(browser: Browser, tmp_path: Path) -> None:
+    path = tmp_path / "m.safetensors"
+    GGX(alpha=0.2, F0=(1, 0, 0)).save(path)
+    server = opening.serve([path], View(mesh="sphere", lights="directional:theta=40"))
+    try:
+        with opened(browser) as page:
+            page.open(server.address)
+            page.set(exposure=1.0)
+            page.until("location.hash.includes('exposure')")
+            red = page.picture().reshape(-1, 3).astype(float).mean(0)
+            GGX(alpha=0.2, F0=(0, 0, 1)).save(path)
+            page.until("viewer.slots.at(0).values.F0[2] === 1")
+            blue = page.picture().reshape(-1, 3).astype(float).mean(0)
+            assert red[0] > red[2]
+            assert blue[2] > blue[0]
+            assert page.state["exposure"] == 1  # what was chosen stays
+    finally:
+        server.stop()

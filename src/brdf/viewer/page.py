@@ -43,6 +43,7 @@ def document(title: str, image: str, data: bytes | None = None) -> str:
         title=html.escape(title),
         policy=POLICY.format(**allowed, **(SERVED if data is None else ALONE)),
         style=sources()["style.css"],
+        source="data-src" if data is None else "src",
         image=html.escape(image),
         width=PICTURE_SIZE[0],
         height=PICTURE_SIZE[1],

@@ -28,6 +28,8 @@ async function show(root, picture) {
         Object.assign(globalThis, { viewer });  // for the console: viewer.state, viewer.setState({ … })
         return viewer;
     } catch (error) {
+        const image = picture.querySelector("img");
+        if (image?.dataset.src) image.src = image.dataset.src;  // from the server only where it is needed
         const caption = picture.querySelector("figcaption");
         if (caption) caption.textContent = error instanceof Error ? error.message : String(error);
         root.replaceChildren(picture);
