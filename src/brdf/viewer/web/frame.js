@@ -59,6 +59,7 @@ class Frame {
     /** Shows everything as the state says. */
     refresh() {
         const { viewer } = this;
+        if (this.narrow && viewer.state.view) this.side.classList.add("folded");  // there is room for one of the two
         const materials = viewer.materials();
         const names = new Set(materials.map((material) => material.name));
         this.title.textContent = [...names].join(" · ");
@@ -119,7 +120,8 @@ class Frame {
     }
 
     toggle() {
-        this.side.classList.toggle("folded");
+        const folded = this.side.classList.toggle("folded");
+        if (!folded && this.narrow) this.viewer.set({ view: null });
         this.viewer.refresh();
     }
 

@@ -5,7 +5,7 @@ import { element, iconButton } from "./element.js";
 import { lightControls } from "./panel_lights.js";
 import { parameterControls } from "./panel_parameters.js";
 import { NAMES } from "./slots.js";
-import { COMPARISONS, MOST_LIGHTS, RANGES } from "./state.js";
+import { COMPARISONS, MOST_LIGHTS, RANGES, TONES } from "./state.js";
 
 /**
  * @typedef {import("./viewer.js").Viewer} Viewer
@@ -161,8 +161,7 @@ function lightSection(viewer) {
 function pictureSection(viewer) {
     const exposure = stateSlider(viewer, "exposure", { label: "Exposure", scale: { low: -4, high: 4, unit: " EV" } });
     const tone = choice({
-        label: "Tone", options: () => [["filmic", "Filmic"], ["reinhard", "Reinhard"], ["clip", "Clip"],
-            ["neutral", "Neutral"], ["linear", "Linear"]],
+        label: "Tone", hidden: true, options: () => TONES.map((name) => [name, capital(name)]),
         read: () => viewer.state.tone, write: (value) => viewer.set({ tone: value }),
     });
     const backdrop = choice({
