@@ -62,7 +62,7 @@ class Frame {
         if (this.narrow && viewer.state.view) this.side.classList.add("folded");  // there is room for one of the two
         const materials = viewer.materials();
         const names = new Set(materials.map((material) => material.name));
-        this.title.textContent = [...names].join(" · ");
+        this.title.textContent = this.title.title = [...names].join(" · ");
         const first = viewer.slots.at(0).source;
         const about = [first.kind, size(first.nbytes)].filter(Boolean).join(" · ");
         this.about.textContent = materials.length > 1 ? "" : about;

@@ -5,7 +5,7 @@
  * @typedef {{
  *     orbit: (x: number, y: number) => void, pan: (x: number, y: number) => void, zoom: (factor: number) => void,
  *     light: (place: [number, number], x: number) => void, nudgeLight: (x: number, y: number) => void,
- *     lighting: () => boolean, home: () => void, key: (key: string) => boolean}} Hands
+ *     lighting: () => boolean, home: () => void, key: (key: string) => boolean, embedded: boolean}} Hands
  */
 
 const STEP = 12;  // pixels that an arrow key stands for
@@ -59,6 +59,7 @@ export function listen(canvas, hands, signal) {
     on("pointerup", up);
     on("pointercancel", up);
     on("wheel", (/** @type {WheelEvent} */ event) => {
+        if (hands.embedded && document.activeElement !== canvas) return;  // the page around it scrolls
         event.preventDefault();
         const lines = event.deltaMode === 1 ? 24 : 1;
         hands.zoom(Math.exp(-Math.max(-200, Math.min(200, event.deltaY * lines)) * (event.ctrlKey ? 0.01 : 0.0015)));

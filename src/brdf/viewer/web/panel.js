@@ -77,7 +77,8 @@ function materialSection(viewer) {
         which.element.hidden = !["split", "side", "difference"].includes(viewer.state.compare);
         chosen.element.hidden = viewer.slots.sources.length < 2;
         reset.hidden = !material().changed;
-        note.textContent = material().source.note ?? "";
+        const { note: said, shader } = material().source;
+        note.textContent = [said, shader.source].filter(Boolean).join(" ");
         made.refresh();
     };
     return { element: made.element, refresh };

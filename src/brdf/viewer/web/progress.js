@@ -39,8 +39,8 @@ const FIRST = { number: 0, place: /** @type {[number, number]} */ ([0.5, 0.5]) }
 export class Progress {
     /** @type {Shot[]} */
     shots = [];
-    /** The quick pictures, and those of all pixels. @type {[Picture[], Picture[]]} */
-    pictures = [[], []];
+    /** The quick pictures, the coarse ones, and those of all pixels. @type {Picture[][]} */
+    pictures = [[], [], []];
     /** What the screen shows. @type {Picture[]} */
     shown = [];
     /** What is still to be refined. @type {Phase[]} */
@@ -72,7 +72,7 @@ export class Progress {
     /** Forgets all pictures. */
     restart() {
         this.shots = [];
-        this.pictures = [[], []];
+        this.pictures = [[], [], []];
         this.shown = [];
         this.phases = [];
         this.pending = null;
@@ -176,9 +176,9 @@ export class Progress {
             pictures: shots.map((_, i) => (this.pictures[level][i] ??= new Picture())),
             shots: shots.map((shot) => scaled(shot, scale)), passes: most, samples, shownFrom: 1,
         });
-        this.phases = [phase(1, 1, passes)];
+        this.phases = [phase(2, 1, passes)];
         if (slow && large) {
-            this.phases.unshift(phase(0, 0.4, COARSE_PASSES));
+            this.phases.unshift(phase(1, 0.4, COARSE_PASSES));
             this.phases[1].shownFrom = 4;
         }
         this.row = this.turn = 0;

@@ -115,6 +115,7 @@ export class Viewer {
             lighting: () => this.lighting,
             home: () => this.set({ theta: this.home.theta, phi: this.home.phi, zoom: this.home.zoom, pan: [0, 0] }),
             key: (key) => this.frame.key(key),
+            embedded: Boolean(this.options.embedded),
         }, signal);
         canvas.addEventListener("webglcontextlost", (event) => event.preventDefault(), { signal });
         canvas.addEventListener("webglcontextrestored", () => this.restore(), { signal });
