@@ -14,6 +14,9 @@ from .shader import Shader
 MATERIAL = "// MATERIAL\n"
 """Where a fragment shader without material wants it: `material(shader)`."""
 
+HARDWARE_FILTER = "#define HARDWARE_FILTER\n"
+"""Before a shader: linear lookups are left to the hardware."""
+
 SHAPES = ("mesh", "sphere")
 """What there are stages for: triangles, and the exact unit sphere."""
 

@@ -103,8 +103,8 @@ class Card:
         padded[: len(texels)] = texels
         return self.texture(padded.reshape(rows, width, channels))
 
-    def described(self, texture: dict[str, Any], data: bytes) -> Any:
-        """A texture as the description of a shader has it; `data` are the texels of all."""
+    def described(self, texture: dict[str, Any], data: bytes, filtered: bool = False) -> Any:
+        """A texture as the description of a shader has it; `data` are the texels of all; `filtered`: linearly."""
         part = data[texture["offset"] : texture["offset"] + texture["bytes"]]
         channels = {"RED": 1, "RG": 2, "RGBA": 4}[texture["format"]]
         if texture["type"] not in TYPES:  # 10-10-10-2, which moderngl has no name for
@@ -112,7 +112,10 @@ class Card:
             tens = np.stack([(words >> shift & 1023) / np.float32(1023) for shift in (0, 10, 20)], -1)
             part = np.concatenate([tens, np.ones_like(tens[:, :1])], -1).astype(np.float32).tobytes()
         make = self.context.texture if texture["target"] == "TEXTURE_2D" else self.context.texture3d
-        return self._plain(make(texture["size"], channels, part, dtype=TYPES.get(texture["type"], "f4")))
+        made = self._plain(make(texture["size"], channels, part, dtype=TYPES.get(texture["type"], "f4")))
+        if filtered:
+            made.filter = self._gl.LINEAR, self._gl.LINEAR
+        return made
 
     def _plain(self, texture: Any) -> Any:
         texture.filter = self._gl.NEAREST, self._gl.NEAREST

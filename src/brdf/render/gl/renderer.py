@@ -36,6 +36,7 @@ def draw(task: Task, progress: Report | bool | None = None) -> tuple[Floats, Flo
         with Progress("rendering", renderer.steps, progress) as bar:
             for place in offsets(task.per_side):
                 for _ in renderer.draw_sample(place):
+                    opened.finish()
                     bar.step()
         return renderer.read()
 
@@ -53,9 +54,12 @@ def shaders_of(task: Task) -> list[Shader]:
 
 
 class Renderer:
-    """A task in the card's memory. `draw_sample` adds a ray to each pixel, `read` gives their mean."""
+    """A task in the card's memory. `draw_sample` adds a ray to each pixel, `read` gives their mean.
 
-    def __init__(self, opened: Card, task: Task, shaders: Sequence[Shader]) -> None:
+    `filtered`: linear lookups are the driver's, faster and on most cards coarser, instead of the shader's own.
+    """
+
+    def __init__(self, opened: Card, task: Task, shaders: Sequence[Shader], filtered: bool = False) -> None:
         self._card, self._task = opened, task
         mesh = task.scene.mesh
         shape, self._vertices = ("sphere", 3) if mesh.is_unit_sphere else ("mesh", 3 * len(mesh.faces))
@@ -66,8 +70,9 @@ class Renderer:
         scene = SceneOnCard(opened, task, self._passes)
         self._materials = []
         for shader, m in zip(shaders, task.reflectances, strict=True):
-            program = scene.apply(opened.program(*stages.shading(shader, shape)))
-            set_material(opened, program, shader)
+            vertex, fragment = stages.shading(shader, shape)
+            program = scene.apply(opened.program(vertex, stages.HARDWARE_FILTER * filtered + fragment))
+            set_material(opened, program, shader, filtered)
             program["environment_samples"] = task.rounds // self._passes
             if task.scene.environment is not None:
                 program["lobe_alpha"], program["lobe_share"] = stand_in(m)
@@ -118,7 +123,6 @@ class Renderer:
         gl.blend_func = gl.ONE, gl.ONE
         self._add.draw(3)
         self._sums += 1
-        self._card.finish()
 
     def read(self) -> tuple[Floats, Floats]:
         """Mean radiance (H W, 3) and coverage (H W,)."""

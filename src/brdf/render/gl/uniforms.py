@@ -51,12 +51,12 @@ class SceneOnCard:
         return program
 
 
-def set_material(opened: Card, program: Program, shader: Shader) -> None:
-    """Set a material's own numbers and textures."""
+def set_material(opened: Card, program: Program, shader: Shader, filtered: bool = False) -> None:
+    """Set a material's own numbers and textures; `filtered`: the driver filters them."""
     for parameter in shader.description["parameters"]:
         program[parameter["uniform"]] = np.asarray(parameter["value"], np.float64)
     for texture in shader.description["textures"]:
-        program.bind(texture["uniform"], opened.described(texture, shader.texels))
+        program.bind(texture["uniform"], opened.described(texture, shader.texels, filtered))
 
 
 def _camera(task: Task) -> dict[str, Any]:

@@ -132,6 +132,17 @@ class SphereImages(Reflectance):
         made._choose(blend, options)
         return made
 
+    def beside(self, angle: float) -> Self:
+        """The two pictures next to `angle` [degrees] alone, which say what all of them do where light and viewer are
+        that far apart: enough for one distant light and parallel rays. For drawing with, not for keeping.
+        """
+        first = int(np.clip(np.searchsorted(self._angles, angle, "right") - 1, 0, len(self._angles) - 2))
+        made = copy.copy(self)
+        made.__dict__.pop("_sampler", None)
+        pair = slice(first, first + 2)
+        made._hold(self._codes[pair], self._constants, self._storage, self._angles[pair], self._dilated)
+        return made
+
     # ---- what it holds -------------------------------------------------------------------------------------------
 
     @property
