@@ -21,7 +21,7 @@ from brdf.models import GGX, Lambertian
 from brdf.reflectance import Reflectance
 from brdf.render import Camera, Directional
 from brdf.render import mesh as meshes
-from brdf.render.gl import Renderer, card, shaders_of
+from brdf.render.gl import Renderer, card, stages_of
 from brdf.render.task import checked
 
 LIGHTS = (1, 2, 4, 8)
@@ -71,7 +71,7 @@ def measured(
     for name, m in materials.items():
         for count in lights:
             task = checked([m], shape, around[:count], None, camera, size, 1, 1, shadows, "gradient", 0)
-            renderers[name, count] = Renderer(opened, task, shaders_of(task), filtered)
+            renderers[name, count] = Renderer(opened, task, stages_of(task), filtered)
     times: dict[Any, list[float]] = {key: [] for key in renderers}
     for key, renderer in renderers.items():  # the first frame compiles
         frame(renderer)

@@ -14,12 +14,14 @@ from ..errors import ReflectanceError, SceneError
 from ..geometry.directions import frame, normalized
 from ..representations.shading.shading_map import ShadingMap
 from . import background as backgrounds
+from .backends import chosen
 from .image import Image
 from .lights import Light
-from .mesh import Mesh
+from .mesh import Mesh, load
+from .progress import Report
 from .scene import Camera, Scene
 from .shading import pixel_means
-from .task import assembled, checked_size
+from .task import Task, checked, finished
 from .visibility import Triangles
 
 Floats = NDArray[np.float32]
@@ -31,7 +33,7 @@ LEAST_COSINE = 0.01
 def render_per_vertex(
     shading_map: ShadingMap, mesh: str | os.PathLike[str] | Mesh, light: Light | str, camera: Camera | None = None,
     size: tuple[int, int] = (800, 600), supersampling: int = 2, shadows: bool = True,
-    background: str | ArrayLike = "gradient",
+    background: str | ArrayLike = "gradient", backend: str = "cpu",
 ) -> Image:  # fmt: skip
     """A picture under one light with the BRDF evaluated at vertices alone: coarse meshes lose highlights.
 
@@ -40,17 +42,28 @@ def render_per_vertex(
     """
     if not shading_map.isotropic:
         raise ReflectanceError("r at vertices needs an isotropic BRDF: a vertex has no tangent of its own")
-    width, height = checked_size(size)
-    scene = assembled(mesh, light, None, camera, width / height)
-    backdrop = backgrounds.check(background, None)
-    solid = dataclasses.replace(scene.mesh, is_unit_sphere=False)
+    solid = dataclasses.replace(load(mesh), is_unit_sphere=False)
     if solid.uvs is None:
         raise SceneError(f"the mesh {solid.name} has no texture coordinates to lay pictures on")
-    surface = Triangles(solid)
-    at_corners = _at_corners(shading_map, solid, scene)
+    task = checked([shading_map], solid, light, None, camera, size, 1, supersampling, shadows, background, 0)
+    return finished(task, *chosen(backend, _draw, _draw_on_card)(task, None))
 
-    pixels = np.arange(width * height, dtype=np.int32)
-    origins, directions = backgrounds.rays(scene.camera, pixels, supersampling, width, height)
+
+def _draw_on_card(task: Task, progress: Report | bool | None) -> tuple[Floats, Floats]:
+    from .gl import draw_per_vertex
+
+    return draw_per_vertex(task, progress)
+
+
+def _draw(task: Task, progress: Report | bool | None) -> tuple[Floats, Floats]:
+    """Radiance that the shape reflects to each pixel (H W, 3), and how much of the pixel it covers (H W,)."""
+    (shading_map,), scene, count = task.reflectances, task.scene, task.width * task.height
+    assert isinstance(shading_map, ShadingMap)
+    surface = Triangles(scene.mesh)
+    at_corners = _at_corners(shading_map, scene.mesh, scene)
+
+    pixels = np.arange(count, dtype=np.int32)
+    origins, directions = backgrounds.rays(scene.camera, pixels, task.per_side, task.width, task.height)
     face, weights = surface.faces(origins, directions)
     at = surface.meet(origins, directions)
     face, second, third = face[at.rays], *weights[:, at.rays]
@@ -59,15 +72,9 @@ def render_per_vertex(
 
     world, distances, irradiance = scene.lights[0].seen_from(at.points)
     reflected = shading_map.lookup(r, at.uvs) * irradiance
-    if shadows:
+    if task.shadows:
         reflected[surface.blocks(at.points, world, distances)] = 0
-    per_pixel = supersampling**2
-    owners = pixels[at.rays // per_pixel]
-    radiance, coverage = pixel_means(reflected.astype(np.float32), owners, width * height, per_pixel)
-    behind = backgrounds.painted(backdrop, scene.camera, None, width, height).reshape(-1, 3)
-    composite = (radiance + (1 - coverage[:, None]) * behind).reshape(height, width, 3)
-    transparent = isinstance(backdrop, str) and backdrop == "transparent"
-    return Image(composite, coverage.reshape(height, width) if transparent else None)
+    return pixel_means(reflected.astype(np.float32), pixels[at.rays // task.per_pixel], count, task.per_pixel)
 
 
 def _at_corners(shading_map: ShadingMap, mesh: Mesh, scene: Scene) -> NDArray[np.float64]:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import os
-import warnings
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from typing import Any
 
 from numpy.typing import ArrayLike
 
-from ..errors import DriverError, UnknownNameError
 from ..reflectance import Reflectance
 from . import cpu, task
+from .backends import chosen
 from .environment import Environment
 from .image import Image
 from .lights import Light
@@ -21,21 +20,9 @@ from .scene import Camera
 
 
 def _on_card(what: task.Task, progress: Report | bool | None) -> tuple[task.Floats, task.Floats]:
-    """`gl.draw`, or `cpu.draw` with a warning where there is no driver."""
     from . import gl
 
-    try:
-        return gl.draw(what, progress)
-    except DriverError as error:
-        warnings.warn(f"{error}; the CPU draws instead", RuntimeWarning, stacklevel=5)
-        return cpu.draw(what, progress)
-
-
-BACKENDS: dict[str, Callable[[task.Task, Report | bool | None], tuple[task.Floats, task.Floats]]] = {
-    "cpu": cpu.draw,
-    "gl": _on_card,
-}
-"""Renderers: radiance reflected to each pixel (H W, 3) and coverage by the shape (H W,)."""
+    return gl.draw(what, progress)
 
 
 def render(
@@ -97,9 +84,8 @@ def render_halves(
 
 
 def _drawn(backend: str, progress: Report | bool | None, *scene: Any) -> Image:
-    if backend not in BACKENDS:
-        raise UnknownNameError("backend", backend, BACKENDS)
+    draw = chosen(backend, cpu.draw, _on_card)
     if backend == "cpu":
         cpu.prepare(*scene)
     what = task.checked(*scene)
-    return task.finished(what, *BACKENDS[backend](what, progress))
+    return task.finished(what, *draw(what, progress))

@@ -33,13 +33,14 @@ def _joined(*names: str) -> str:
 
 def vertex(shape: str) -> str:
     """The vertex shader of a shape: `mesh` takes 3 vertices a face, `sphere` and `screen` 3 in all."""
-    return _joined("precision", "camera", "texel", "mesh.vert") if shape == "mesh" else _joined("sphere.vert")
+    mesh = ["precision", "camera", "texel", "mesh.vert", "main.vert"]
+    return _joined(*mesh) if shape == "mesh" else _joined("sphere.vert")
 
 
 def fragment(shape: str) -> str:
     """The fragment shader that shades a shape; `MATERIAL` stands for the material."""
     surface = ["point", "angle", f"surface.{shape}", f"shadow.{shape}"]
-    light = ["lights", "points", "environment"]
+    light = ["light", "lights", "points", "environment"]
     return _joined("precision", "material", "camera", "texel", *surface, *light, "main.frag")
 
 
@@ -69,6 +70,15 @@ def material(shader: Shader) -> str:
         f"#define TRANSMITS {str(transmits).lower()}",
         "",
     ])  # fmt: skip
+
+
+def per_vertex(brdf: Shader, picture: Shader) -> tuple[str, str]:
+    """Vertex and fragment shader that draw a mesh whose `brdf` is evaluated at corners alone, where it says which
+    `picture` a place shows."""
+    vertex = ["precision", "material", "camera", "texel", "mesh.vert", "light", "per_vertex.vert"]
+    surface = ["camera", "texel", "point", "angle", "surface.mesh", "shadow.mesh"]
+    fragment = ["precision", "material", *surface, "light", "lights", "per_vertex.frag"]
+    return (_joined(*vertex).replace(MATERIAL, material(brdf)), _joined(*fragment).replace(MATERIAL, material(picture)))
 
 
 def shading(shader: Shader, shape: str) -> tuple[str, str]:

@@ -147,7 +147,8 @@ class Program:
         if name in self._program:
             uniform = self._program[name]
             numbers = np.asarray(value)
-            uniform.write(numbers.astype("i4" if numbers.dtype.kind in "biu" else "f4").tobytes())
+            data = numbers.astype("i4" if numbers.dtype.kind in "biu" else "f4").tobytes()
+            uniform.write(data[: uniform.array_length * uniform.element_size])  # what is not read of an array is cut
 
     def bind(self, name: str, texture: Any) -> None:
         """Have the sampler `name` read a texture, on a unit of its own. Raises DriverError for more than it has."""

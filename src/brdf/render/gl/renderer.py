@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -25,14 +26,27 @@ MOST_AT_ONCE = 16
 FUNCTION = "brdf_material"
 
 
+@dataclass(frozen=True)
+class Stages:
+    """Shaders that shade a shape, and the materials whose numbers they read."""
+
+    vertex: str
+    fragment: str
+    materials: tuple[Shader, ...]
+
+
 def draw(task: Task, progress: Report | bool | None = None) -> tuple[Floats, Floats]:
     """Radiance that the shape reflects to each pixel (H W, 3), and how much of the pixel it covers (H W,).
 
     Raises DriverError, ReflectanceError for what has no shader or mirrors, SceneError for more than 8 lights.
     """
-    shaders = shaders_of(task)
+    return drawn(task, stages_of(task), progress)
+
+
+def drawn(task: Task, shading: Sequence[Stages], progress: Report | bool | None) -> tuple[Floats, Floats]:
+    """The same with the stages of each material. Raises DriverError, SceneError."""
     with card() as opened:
-        renderer = Renderer(opened, task, shaders)
+        renderer = Renderer(opened, task, shading)
         with Progress("rendering", renderer.steps, progress) as bar:
             for place in offsets(task.per_side):
                 for _ in renderer.draw_sample(place):
@@ -41,8 +55,8 @@ def draw(task: Task, progress: Report | bool | None = None) -> tuple[Floats, Flo
         return renderer.read()
 
 
-def shaders_of(task: Task) -> list[Shader]:
-    """The materials' shaders. Raises ReflectanceError, SceneError for what cannot be drawn with them."""
+def stages_of(task: Task) -> list[Stages]:
+    """The stages of each material. Raises ReflectanceError, SceneError for what cannot be drawn with them."""
     if len(task.scene.lights) > MOST_LIGHTS:
         raise SceneError(f"the backend 'gl' draws up to {MOST_LIGHTS} lights, got {len(task.scene.lights)}; use 'cpu'")
     for m in task.reflectances:
@@ -50,7 +64,9 @@ def shaders_of(task: Task) -> list[Shader]:
             raise ReflectanceError(
                 f"{m.name or type(m).__name__} mirrors, which has no values to draw; use the backend 'cpu'"
             )
-    return [shader_of(m, function=FUNCTION) for m in task.reflectances]
+    shaders = [shader_of(m, function=FUNCTION) for m in task.reflectances]
+    shape = "sphere" if task.scene.mesh.is_unit_sphere else "mesh"
+    return [Stages(*stages.shading(shader, shape), (shader,)) for shader in shaders]
 
 
 class Renderer:
@@ -59,27 +75,27 @@ class Renderer:
     `filtered`: linear lookups are the driver's, faster and on most cards coarser, instead of the shader's own.
     """
 
-    def __init__(self, opened: Card, task: Task, shaders: Sequence[Shader], filtered: bool = False) -> None:
+    def __init__(self, opened: Card, task: Task, shading: Sequence[Stages], filtered: bool = False) -> None:
         self._card, self._task = opened, task
         mesh = task.scene.mesh
-        shape, self._vertices = ("sphere", 3) if mesh.is_unit_sphere else ("mesh", 3 * len(mesh.faces))
+        self._vertices = 3 if mesh.is_unit_sphere else 3 * len(mesh.faces)
         self._passes = _passes(task.rounds)
         self._sums = 0
         self._sample = opened.target(task.width, task.height, depth=True)
         self._sum = opened.target(task.width, task.height, depth=False)
         scene = SceneOnCard(opened, task, self._passes)
         self._materials = []
-        for shader, m in zip(shaders, task.reflectances, strict=True):
-            vertex, fragment = stages.shading(shader, shape)
-            program = scene.apply(opened.program(vertex, stages.HARDWARE_FILTER * filtered + fragment))
-            set_material(opened, program, shader, filtered)
+        for stage, m in zip(shading, task.reflectances, strict=True):
+            program = scene.apply(opened.program(stage.vertex, stages.HARDWARE_FILTER * filtered + stage.fragment))
+            for shader in stage.materials:
+                set_material(opened, program, shader, filtered)
             program["environment_samples"] = task.rounds // self._passes
             if task.scene.environment is not None:
                 program["lobe_alpha"], program["lobe_share"] = stand_in(m)
             self._materials.append(program)
         self._depth = None
-        if shape == "mesh":
-            self._depth = scene.apply(opened.program(stages.vertex(shape), stages.depth()))
+        if not mesh.is_unit_sphere:
+            self._depth = scene.apply(opened.program(stages.vertex("mesh"), stages.depth()))
         self._add = opened.program(stages.vertex("screen"), stages.sum_of_samples())
         self._add.bind("drawn", self._sample.texture)
         self._parts = _parts(task)

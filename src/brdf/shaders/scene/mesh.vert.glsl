@@ -7,7 +7,8 @@ invariant gl_Position;  // the pass for depth alone comes to the same
 flat out int face;
 out vec2 weights;  // of the second and third corner
 
-void main() {
+// The corner's place on the screen; returns its texel.
+int place_corner() {
     int corner = gl_VertexID % 3;
     face = gl_VertexID / 3;
     weights = vec2(corner == 1, corner == 2);
@@ -20,4 +21,5 @@ void main() {
     vec2 place = seen.xy / camera_half * vec2(picture_size.y / picture_size.x, 1.0);
     vec2 shift = (0.5 - sample_place) * vec2(2.0, -2.0) / picture_size;  // the sample comes to the pixel's middle
     gl_Position = vec4(place + shift * w, depth, w);
+    return face * 6 + corner;
 }
