@@ -11,6 +11,16 @@ from cards import HEADERS, GLCard
 from every_kind import MODELS, TABLES
 
 
+def test_no_parameter_of_a_model_is_called_like_something_of_the_stages(gl: GLCard) -> None:
+    with gl.context:
+        for make in MODELS.values():
+            if (m := make()).has_delta:
+                continue
+            vertex, fragment = stages.shading(shader_of(m, function="brdf_material"), "mesh")
+            header = HEADERS["330 core"]
+            gl.context.program(header + vertex, fragment_shader=header + fragment).release()
+
+
 @pytest.mark.parametrize("name", ["GGX", "two-sided", "varying", "slice stack", "sphere images, separated"])
 def test_the_stages_compile_around_every_kind(name: str, gl: GLCard) -> None:
     shader = shader_of((MODELS | TABLES)[name]())
