@@ -53,3 +53,22 @@ def test_mistakes(refused: Callable[..., str], tmp_path: Path) -> None:
     refused("fit", TRUTH, "--model", "Ward", "-o", "nowhere/x.safetensors")
     refused("fit", TRUTH, "--model", "Ward", "--metric", "l7")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["empty.binary"]
+
+
+def test_several_make_a_folder_with_a_table_and_a_page(brdf: Command, tmp_path: Path) -> None:
+    arguments = ("fit", TRUTH, "Lambertian:albedo=.3", "--model", "Ward,Lambertian", "--budget", "1")
+    outcome = brdf(*arguments, "-o", "many")
+    assert outcome.code == 0
+    assert "nearest" in outcome.out
+    page = (tmp_path / "many" / "index.html").read_text("utf-8")
+    assert page.count("data:image/png") == 6  # two spheres of the data, four of the fits
+    assert (tmp_path / "many" / "fits.csv").read_text("utf-8").count("\n") == 5
+    assert "4 of 4 fits were there already" in brdf(*arguments, "-o", "many").out
+
+
+def test_what_fails_is_told_when_the_rest_is_done(brdf: Command, tmp_path: Path) -> None:
+    (tmp_path / "empty.binary").touch()
+    outcome = brdf("fit", TRUTH, "empty.binary", "--model", "Ward", "--budget", "1", "-o", "many", "--json")
+    assert outcome.code == 2
+    assert "empty.binary" in outcome.err
+    assert len(json.loads(outcome.out)["fits"]) == 1

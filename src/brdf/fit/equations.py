@@ -7,6 +7,7 @@ reasonable time, and formulas with textures, are evaluated with NumPy, block by 
 
 from __future__ import annotations
 
+import copy
 import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -103,11 +104,18 @@ class Equations:
     def __init__(self, m: Reflectance, samples: Samples, loss: Loss, real: str = "float32") -> None:
         self._model, self._rows, self._components = m, rows_of(m, loss), components(m)
         self._real = real if self._rows.is_compiled else "float64"
-        cosine = samples.wi[:, 2:].astype(np.float64)
-        target = loss.scale(samples.values * cosine)
-        columns = [*samples.wi.T, *samples.wo.T, *target.T, *np.sqrt(samples.weight).T]
-        self._data = np.ascontiguousarray(columns, self._real)
+        self._data = np.empty((len(_INPUTS), len(samples)), self._real)
+        self._data[:3], self._data[3:6] = samples.wi.T, samples.wo.T
+        self._data[6:9] = loss.scale(samples.values * samples.wi[:, 2:]).T
+        self._data[9:] = np.sqrt(samples.weight).T
         self.size = 3 * len(samples.wi)
+
+    def reweighted(self, factor: NDArray[Any]) -> Equations:
+        """The same with residuals multiplied by `factor` (N, 3)."""
+        made = copy.copy(self)
+        made._data = self._data.copy()
+        made._data[9:] *= factor.T
+        return made
 
     def __call__(self, numbers: Array) -> Normal:
         """The equations at the model's numbers (P,)."""

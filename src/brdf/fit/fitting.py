@@ -175,8 +175,9 @@ class _Fit:
         fitted = np.asarray(made(samples.wi, samples.wo))
         cosine = samples.wi[:, 2:]
         residual = loss.scale(fitted * cosine) - loss.scale(samples.values * cosine)
-        normal = Equations(self.template, samples, loss)(numbers)
-        meat = Equations(self.template, samples.reweighted(samples.weight**2 * residual**2), loss)(numbers).hessian
+        equations = Equations(self.template, samples, loss)
+        normal = equations(numbers)
+        meat = equations.reweighted(np.sqrt(samples.weight) * residual)(numbers).hessian
         sure = certainty(self.components, numbers, self.free, normal.hessian, meat, 3 * len(samples))
         states = [
             "held" if not free else "at bound" if np.isnan(error) else "free"

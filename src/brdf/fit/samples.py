@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..color import rgb_weights
 from ..errors import ParameterError, ReflectanceError
 from ..formula.engine import check_lengths
-from ..geometry.directions import from_half_difference, from_spherical
+from ..geometry.directions import from_spherical
 from ..metrics import direction_pairs
 from ..reflectance import Reflectance
 from ..representations.tables.merl import LAYOUT
@@ -58,7 +59,7 @@ class Samples:
         """
         if not 0 < grazing <= 90:
             raise ParameterError(f"the grazing angle must lie in (0, 90] degrees, got {grazing:g}")
-        wi, wo, values = (np.asarray(a, np.float64) for a in (wi, wo, values))
+        wi, wo, values = (np.asarray(a, np.result_type(np.asarray(a), np.float32)) for a in (wi, wo, values))
         if values.ndim == 1:
             values = np.repeat(values[:, None], 3, 1)
         if wi.ndim != 2 or wi.shape[1:] != (3,) or wo.shape != wi.shape or values.shape != wi.shape:
@@ -66,7 +67,7 @@ class Samples:
                 f"samples need directions and values of shape (N, 3), got {wi.shape}, {wo.shape}, {values.shape}"
             )
         check_lengths(wi=wi, wo=wo)
-        given = np.asarray(weight, np.float64)
+        given = np.asarray(weight, np.result_type(np.asarray(weight), np.float32))
         given = np.broadcast_to(given[:, None] if given.ndim == 1 else given, values.shape)
         least = max(math.cos(math.radians(grazing)), 1e-6)
         with np.errstate(invalid="ignore"):
@@ -113,13 +114,36 @@ def samples_of(data: Any, grazing: float = GRAZING) -> Samples:
 
 def _bins(table: Table, grazing: float) -> Samples:
     """The measured bins of a MERL table; a bin's weight is the measure d wi d wo of the cell around its node."""
-    theta_h, theta_d, phi_d = (axis.ravel() for axis in table.layout.nodes())
+    grid = _grid()
+    chosen = np.flatnonzero(table.measured[:, :, :-1].ravel() & (grid.least >= math.cos(math.radians(grazing))))
+    values = table.codes[:, :, :-1].reshape(-1, 3)[chosen]
+    made = Samples.of(grid.wi[chosen], grid.wo[chosen], values, grid.weight[chosen], 90.0, table.name, table.source)
+    return replace(made, grazing=grazing, left_out=len(grid.least) - len(made))
+
+
+class _Grid(NamedTuple):
+    """All bins of a MERL table in their order; those below the horizon have directions, too."""
+
+    wi: Array
+    wo: Array
+    least: Array
+    """(N,) the smaller cosine of the two directions"""
+    weight: Array
+
+
+@functools.lru_cache(maxsize=1)
+def _grid() -> _Grid:
+    theta_h, theta_d, phi_d = (axis.ravel() for axis in LAYOUT.nodes())
+    phi_d = phi_d[:-1]
+    shape = (len(theta_h), len(theta_d), len(phi_d))
+    wi, wo = np.empty((2, *shape, 3), np.float32)
+    for i, theta in enumerate(theta_h):  # a slice at a time bounds the memory
+        wi[i], wo[i] = LAYOUT.basis.directions(np.asarray(theta), theta_d[:, None], phi_d[None, :])
     # d wi d wo = 4 cos(theta_d) d omega_h d omega_d
-    weight = _cells(theta_h)[:, None] * (_cells(theta_d) * np.cos(theta_d))
-    i, j, k = np.nonzero(table.measured[:, :, :-1])
-    wi, wo = from_half_difference(theta_h[i], np.zeros(len(i)), theta_d[j], phi_d[k])
-    made = Samples.of(wi, wo, table.codes[i, j, k], weight[i, j], grazing, table.name, table.source)
-    return replace(made, left_out=table.measured[:, :, :-1].size - len(made))
+    weight = _cells(theta_h)[:, None, None] * (_cells(theta_d) * np.cos(theta_d))[:, None]
+    least = np.minimum(wi[..., 2], wo[..., 2]).ravel()
+    weights = np.broadcast_to(weight, shape).astype(np.float32).ravel()
+    return _Grid(wi.reshape(-1, 3), wo.reshape(-1, 3), least, weights)
 
 
 def _edges(nodes: Array) -> Array:

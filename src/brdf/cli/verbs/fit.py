@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from .. import arguments, output
+from ..fitting import fit_folder
 
 if TYPE_CHECKING:
     from ...fit import Data, FitResult
@@ -41,17 +42,30 @@ def command(
     seed: Annotated[int, typer.Option(metavar="N", help="Of the starts.")] = 0,
     out: Annotated[
         Path | None,
-        typer.Option("-o", "--output", metavar="PATH", help="The fitted material. [NAME-MODEL.safetensors]"),
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="PATH",
+            help="The fitted material, or the folder of many. [NAME-MODEL.safetensors, fits]",
+        ),
     ] = None,
     report: Annotated[
         Path | None, typer.Option("--report", metavar="FILE", help="A figure of the fit: .html, .png, .svg, .pdf.")
     ] = None,
+    jobs: Annotated[int, typer.Option(metavar="N", help="Processes that share many fits.")] = 1,
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="A Dask scheduler whose workers fit, as tcp://host:8786.")
+    ] = None,
+    table: Annotated[
+        Path | None, typer.Option("--table", metavar="FILE", help="Of many: .csv or .parquet. [fits.csv in the folder]")
+    ] = None,
     json: arguments.AsJson = False,
 ) -> None:
-    """Fit a model to measurements.
+    """Fit models to measurements.
 
     Prints every parameter with its standard error, the distance from the data in every metric, and what the data do
-    not determine; saves the fitted material.
+    not determine; saves the fitted material. Of several data or models, makes a folder: every fit, one table, one page
+    of pictures. Run again, it goes on where it was stopped: finished fits are kept.
 
     \b
     Examples:
@@ -59,12 +73,22 @@ def command(
       brdf fit paint.brdf --model CookTorrance --metric cube-root --robust soft_l1
       brdf fit measured.binary --model "Lambertian + Ward" --fix lobe1_albedo
       brdf fit photographs/ --model GGX -o ball.safetensors
+      brdf fit merl/*.binary --model GGX,Ward,SGD --jobs 2 -o fits
+      brdf fit merl/*.binary --model GGX --scheduler tcp://head:8786 --table fits.parquet
     """
+    from ...errors import ParameterError
+
     options: dict[str, Any] = {
         "lobes": _lobes(lobes), "metric": metric, "diffuse": diffuse, "fixed": fix or (), "robust": robust,
         "budget": int(budget) if budget.isdigit() else budget, "seed": seed,
     }  # fmt: skip
-    _fit_one(data[0], model, grazing, options, out, report, json)
+    models = [name.strip() for name in model.split(",") if name.strip()]
+    if len(data) == len(models) == 1 and scheduler is None and table is None:
+        _fit_one(data[0], models[0], grazing, options, out, report, json)
+        return
+    if report is not None:
+        raise ParameterError("--report is of one fit; many have a page of their own, index.html in their folder")
+    fit_folder(data, models, options | {"grazing": grazing}, out or Path("fits"), jobs, scheduler, table, json)
 
 
 def _lobes(text: str) -> int | str:

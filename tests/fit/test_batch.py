@@ -1,0 +1,154 @@
+"""Many fits: what is kept, what goes on, what is written."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+
+import pytest
+
+import brdf
+from brdf.errors import FileError, MissingExtraError, ParameterError, UnknownFormatError
+from brdf.fit import batch as batch_module
+from brdf.fit import fit_many
+from brdf.fit.table import write_table
+from brdf.fit.workers import outcomes
+from fit_tasks import die, die_once, square
+
+DATA = ["Lambertian:albedo=.2 + Ward:ks=.3,alpha=.15", "Lambertian:albedo=.4 + Ward:ks=.1,alpha=.3"]
+OPTIONS = {"budget": 1, "grazing": 70.0}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    made = tmp_path_factory.mktemp("fits") / "fits"
+    fit_many(DATA, ["Ward", "Lambertian"], made, **OPTIONS)
+    return made
+
+
+def test_every_fit_is_a_material_with_its_numbers(folder: Path) -> None:
+    materials = sorted(folder.glob("*.safetensors"))
+    assert len(materials) == 4
+    for path in materials:
+        known = json.loads(path.with_suffix(".json").read_text("utf-8"))
+        assert known["fit"]["file"] == path.name
+        assert known["task"]["data"] in DATA
+        assert "albedo" in str(brdf.load(str(path)).values)
+
+
+def test_finished_fits_are_kept(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def never(task: object) -> None:
+        raise AssertionError("fitted again")
+
+    monkeypatch.setattr(batch_module, "make", never)
+    again = fit_many(DATA, ["Ward", "Lambertian"], folder, **OPTIONS)
+    assert again.kept == len(again.fits) == 4
+    assert [(one["data"], one["model"]) for one in again.fits] == [(d, m) for d in DATA for m in ("Ward", "Lambertian")]
+
+
+def test_other_options_or_a_damaged_file_are_fitted_again(folder: Path) -> None:
+    whole = fit_many(DATA[:1], ["Ward"], folder, **OPTIONS)
+    assert whole.kept == 1
+    assert fit_many(DATA[:1], ["Ward"], folder, budget=1, grazing=65.0).kept == 0
+    fit_many(DATA[:1], ["Ward"], folder, **OPTIONS)
+    material = folder / whole.fits[0]["file"]
+    material.write_bytes(material.read_bytes()[:100])
+    assert fit_many(DATA[:1], ["Ward"], folder, **OPTIONS).kept == 0
+    material.with_suffix(".json").write_text("{")
+    assert fit_many(DATA[:1], ["Ward"], folder, **OPTIONS).kept == 0
+
+
+def test_a_changed_file_is_fitted_again(tmp_path: Path) -> None:
+    path = tmp_path / "x.safetensors"
+    for number, albedo in enumerate((0.2, 0.3, 0.3)):
+        brdf.models.Lambertian(albedo=albedo).save(path)
+        done = fit_many([str(path)], ["Lambertian"], tmp_path / "fits", **OPTIONS)
+        assert done.kept == (1 if number == 2 else 0)
+        assert done.fits[0]["parameters"]["albedo_r"]["value"] == pytest.approx(albedo)
+
+
+def test_an_interrupted_run_goes_on(tmp_path: Path) -> None:
+    def stop(done: int, total: int, what: str) -> None:
+        if done == 1:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        fit_many(DATA, ["Ward"], tmp_path / "fits", progress=stop, **OPTIONS)
+    assert fit_many(DATA, ["Ward"], tmp_path / "fits", **OPTIONS).kept == 1
+
+
+def test_what_fails_does_not_stop_the_others(tmp_path: Path) -> None:
+    (tmp_path / "empty.binary").touch()
+    done = fit_many([str(tmp_path / "empty.binary"), DATA[0]], ["Ward"], tmp_path / "fits", **OPTIONS)
+    assert len(done.fits) == 1
+    (failure,) = done.failures.values()
+    assert "empty.binary" in failure
+    assert sorted(p.suffix for p in (tmp_path / "fits").iterdir()) == [".json", ".safetensors"]
+
+
+def test_files_of_one_name_do_not_overwrite_each_other(tmp_path: Path) -> None:
+    for sub, albedo in (("a", 0.2), ("b", 0.5)):
+        (tmp_path / sub).mkdir()
+        brdf.models.Lambertian(albedo=albedo).save(tmp_path / sub / "x.safetensors")
+    specs = [str(tmp_path / sub / "x.safetensors") for sub in "ab"]
+    done = fit_many(specs, ["Lambertian"], tmp_path / "fits", **OPTIONS)
+    assert [one["parameters"]["albedo_r"]["value"] for one in done.fits] == pytest.approx([0.2, 0.5])
+    assert len({one["file"] for one in done.fits}) == 2
+
+
+def test_processes_share_the_work() -> None:
+    assert dict(outcomes(square, [1, 2, 3, 4], 2, None, 1)) == {1: 1, 2: 4, 3: 9, 4: 16}
+
+
+def test_a_killed_process_loses_its_own_task_only_and_that_is_begun_again(tmp_path: Path) -> None:
+    paths = [str(tmp_path / name) for name in "abc"]
+    assert dict(outcomes(die_once, paths, 2, None, 1)) == dict.fromkeys(paths, "done")
+    found = dict(outcomes(die, [1, 2], 2, None, 1))
+    assert all("its process died, twice" in str(v) for v in found.values())
+
+
+def test_a_cluster_gives_the_same_fits(folder: Path, tmp_path: Path) -> None:
+    distributed = pytest.importorskip("distributed")
+    with distributed.LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None, worker_dashboard_address=None
+    ) as cluster:
+        done = fit_many(DATA, ["Ward"], tmp_path / "fits", scheduler=cluster.scheduler_address, **OPTIONS)
+    here = fit_many(DATA, ["Ward"], folder, **OPTIONS)
+    for one, other in zip(done.fits, here.fits, strict=True):
+        assert one["parameters"] == other["parameters"]
+
+
+def test_a_scheduler_that_does_not_answer_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("distributed")
+    monkeypatch.setattr("brdf.fit.workers.CONNECTING", 0.5)
+    with pytest.raises(ParameterError, match="no Dask scheduler answers at nonsense"):
+        fit_many(DATA, ["Ward"], tmp_path / "fits", scheduler="nonsense", **OPTIONS)
+
+
+@pytest.mark.parametrize("kind", ["csv", "parquet"])
+def test_the_table_has_a_line_a_fit(folder: Path, tmp_path: Path, kind: str) -> None:
+    fits = fit_many(DATA, ["Ward", "Lambertian"], folder, **OPTIONS).fits
+    path = tmp_path / f"fits.{kind}"
+    write_table(fits, path)
+    if kind == "csv":
+        rows = list(csv.DictReader(path.read_text("utf-8").splitlines()))
+    else:
+        rows = pytest.importorskip("pyarrow.parquet").read_table(path).to_pylist()
+    assert [row["model"] for row in rows] == ["Ward", "Lambertian"] * 2
+    assert float(rows[0]["lobe2_alpha"]) == pytest.approx(0.15, rel=1e-3)
+    assert rows[1]["lobe2_alpha"] in ("", None)
+    assert float(rows[3]["error cube root"]) > 0
+
+
+def test_mistakes_are_explained(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    with pytest.raises(ParameterError, match="jobs must be at least 1, got 0"):
+        fit_many(DATA, ["Ward"], tmp_path, jobs=0)
+    (tmp_path / "file").touch()
+    with pytest.raises(FileError, match="is a file; give a folder"):
+        fit_many(DATA, ["Ward"], tmp_path / "file")
+    with pytest.raises(UnknownFormatError, match=r"written as \.csv or \.parquet"):
+        write_table([], tmp_path / "x.xlsx")
+    monkeypatch.setitem(__import__("sys").modules, "distributed", None)
+    with pytest.raises(MissingExtraError, match=r"pip install 'brdf\[cluster\]'"):
+        fit_many(DATA, ["Ward"], tmp_path / "fits", scheduler="tcp://localhost:1", **OPTIONS)
