@@ -103,6 +103,8 @@ def test_processes_share_the_work() -> None:
 
 def test_a_killed_process_loses_its_own_task_only_and_that_is_begun_again(tmp_path: Path) -> None:
     paths = [str(tmp_path / name) for name in "abc"]
+    for innocent in paths[1:]:
+        Path(innocent).touch()
     assert dict(outcomes(die_once, paths, 2, None, 1)) == dict.fromkeys(paths, "done")
     found = dict(outcomes(die, [1, 2], 2, None, 1))
     assert all("its process died, twice" in str(v) for v in found.values())
