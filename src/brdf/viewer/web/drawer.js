@@ -52,7 +52,12 @@ export class Drawer {
         if (!this.drawn || this.request) return;
         this.request = requestAnimationFrame(() => {
             this.request = 0;
-            if (!this.viewer.gl.isContextLost()) this.drawn?.update();
+            if (this.viewer.gl.isContextLost()) return;
+            try {
+                this.drawn?.update();
+            } catch (error) {
+                this.viewer.failed(error);
+            }
         });
     }
 

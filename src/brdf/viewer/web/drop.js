@@ -4,13 +4,9 @@ import { element } from "./element.js";
 import { materialOf } from "./formats/open.js";
 
 export class Drop {
-    /**
-     * @param {import("./viewer.js").Viewer} viewer
-     * @param {(text: string, wrong?: boolean) => void} say
-     */
-    constructor(viewer, say) {
+    /** @param {import("./viewer.js").Viewer} viewer */
+    constructor(viewer) {
         this.viewer = viewer;
-        this.say = say;
     }
 
     /** @param {HTMLElement} area */
@@ -41,10 +37,10 @@ export class Drop {
     async open(files) {
         for (const file of files.slice(0, 2)) {
             try {
-                this.say(`Reading ${file.name} …`);
+                this.viewer.frame.notice(`Reading ${file.name} …`);
                 this.viewer.add(await materialOf(file, this.viewer.payload.library));
             } catch (error) {
-                this.say(error instanceof Error ? error.message : String(error), true);
+                this.viewer.failed(error);
             }
         }
     }

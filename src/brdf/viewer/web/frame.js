@@ -39,7 +39,7 @@ class Frame {
             iconButton("help", "Help (?)", () => this.help.showModal()),
             this.fold);
         this.side = element("aside", { class: "panel", "aria-label": "Settings" }, this.panel.element);
-        this.drop = new Drop(viewer, (text, wrong) => this.notice(text, wrong));
+        this.drop = new Drop(viewer);
         const { canvas, handles, drawer } = viewer;
         const title = element("div", { class: "title" }, this.title, this.about);
         this.element = element("div", { class: "viewer" },

@@ -66,7 +66,7 @@ export function listen(canvas, hands, signal) {
     });
     on("dblclick", () => hands.home());
     on("contextmenu", (/** @type {Event} */ event) => event.preventDefault());
-    on("keydown", (/** @type {KeyboardEvent} */ event) => {
+    const press = (/** @type {KeyboardEvent} */ event) => {
         if (event.altKey || event.ctrlKey || event.metaKey) return;
         const arrows = { ArrowLeft: [-STEP, 0], ArrowRight: [STEP, 0], ArrowUp: [0, -STEP], ArrowDown: [0, STEP] };
         const arrow = arrows[/** @type {keyof typeof arrows} */ (event.key)];
@@ -77,5 +77,8 @@ export function listen(canvas, hands, signal) {
         else if (event.key === "Home" || event.key === "0") hands.home();
         else if (!hands.key(event.key)) return;
         event.preventDefault();
-    });
+    };
+    on("keydown", press);
+    if (hands.embedded) return;  // a page of its own has keys even where nothing has the focus
+    document.addEventListener("keydown", (event) => event.target === document.body && press(event), { signal });
 }

@@ -9,11 +9,13 @@ export class Measure {
      * @param {import("./evaluate.js").Evaluator} evaluator
      * @param {import("./slots.js").Slots} slots
      * @param {() => void} known is called when the number has been worked out
+     * @param {(error: unknown) => void} failed
      */
-    constructor(evaluator, slots, known) {
+    constructor(evaluator, slots, known, failed) {
         this.evaluator = evaluator;
         this.slots = slots;
         this.known = known;
+        this.failed = failed;
         /** PSNR of B against A [dB], or null while it is not known. @type {number | null} */
         this.psnr = null;
         this.key = "";
@@ -38,9 +40,13 @@ export class Measure {
 
     measure() {
         if (this.evaluator.gl.isContextLost()) return;
-        this.comparer ??= new Comparer(this.evaluator);
-        this.psnr = this.comparer.psnr(this.slots.at(0), this.slots.at(1));
-        this.known();
+        try {
+            this.comparer ??= new Comparer(this.evaluator);
+            this.psnr = this.comparer.psnr(this.slots.at(0), this.slots.at(1));
+            this.known();
+        } catch (error) {
+            this.failed(error);
+        }
     }
 
     dispose() {

@@ -58,7 +58,7 @@ export class Viewer {
         this.slots = new Slots(gl, payload);
         this.renderer = new Renderer(gl, payload.stages);
         this.evaluator = new Evaluator(gl, payload.stages);
-        this.measure = new Measure(this.evaluator, this.slots, () => this.frame.refresh());
+        this.measure = new Measure(this.evaluator, this.slots, () => this.frame.refresh(), (e) => this.failed(e));
         this.framer = new Framer();
         this.ending = new AbortController();
         /** @type {Map<string, any>} */
@@ -86,7 +86,7 @@ export class Viewer {
         this.progress = new Progress(this.renderer, {
             shots: () => this.shots(),
             present: (pictures, shots) => this.present(pictures, shots),
-            failed: (error) => this.frame.notice(error instanceof Error ? error.message : String(error), true),
+            failed: (error) => this.failed(error),
             stateful: (state) => void (root.dataset.state = state),
         });
         this.listen();
@@ -312,6 +312,11 @@ export class Viewer {
             });
         }
         this.options.picture?.remove();
+    }
+
+    /** Says what went wrong, and goes on. @param {unknown} error */
+    failed(error) {
+        this.frame.notice(error instanceof Error ? error.message : String(error), true);
     }
 
     restore() {
