@@ -14,6 +14,7 @@ import brdf
 from brdf.models import GGX, Lambertian
 from brdf.render import Camera, Environment, Mesh
 from brdf.render import environment as environments
+from brdf.render import mesh as meshes
 from brdf.render.mesh import corner_normals
 from brdf.viewer.payload import View, payload
 from cards import GLCard
@@ -83,6 +84,16 @@ def fold() -> Mesh:
     return Mesh("fold", vertices, faces, corner_normals(vertices, faces, 10).astype(np.float32))
 
 
+def test_near_and_far_turned_and_shifted_it_is_the_same_picture(modules: Page, gl: GLCard) -> None:
+    mounted(modules, payload([SATIN], View("sphere", LIGHTS)))
+    for zoom in (0.5, 3):
+        modules.evaluate("(zoom) => viewer.setState({ zoom, theta: 110, phi: -70, pan: [0.05, -0.02] })", zoom)
+        finished(modules)
+        expected = rendered(modules, SATIN, mesh="sphere", lights=LIGHTS)
+        assert expected.std() > 10
+        assert (np.abs(picture(modules) - expected).max(-1) > 1).mean() < 2e-3
+
+
 def test_surroundings_give_the_picture_that_python_draws_but_for_noise(modules: Page, gl: GLCard) -> None:
     mounted(modules, payload([SATIN], View(fold(), env="studio")), 96, 96)
     scene: dict[str, Any] = {"mesh": fold(), "env": "studio", "samples": 256}
@@ -96,6 +107,42 @@ def test_surroundings_give_the_picture_that_python_draws_but_for_noise(modules: 
     turned = rendered(modules, SATIN, **scene, background="environment")
     assert np.abs(picture(modules) - turned).mean() < 0.5
     assert np.abs(turned - expected).mean() > 6
+
+
+@pytest.mark.parametrize("mesh", ["teapot", "sphere"])
+def test_a_shape_is_framed_as_python_frames_it(modules: Page, mesh: str) -> None:
+    data = base64.b64encode(payload([GOLD], View(mesh))).decode()
+    target, distance = modules.evaluate(
+        """async (data) => {
+            const { framing } = await import("./camera.js");
+            const { decode } = await import("./payload.js");
+            const { decodedMesh } = await import("./mesh.js");
+            const contents = decode(Uint8Array.from(atob(data), (c) => c.charCodeAt(0)).buffer);
+            const half = Math.tan(Math.PI / 12);
+            const { target, distance } = framing(decodedMesh(contents.meshes[0], contents).points, [half * 1.5, half]);
+            return [target, distance];
+        }""",
+        data,
+    )
+    camera = Camera.framing(meshes.load(mesh), aspect=1.5)
+    np.testing.assert_allclose(target, camera.target, atol=2e-3)
+    assert distance == pytest.approx(np.linalg.norm(camera.position - camera.target), rel=1e-3)
+
+
+@pytest.mark.parametrize("kind", ["directional:theta=40,phi=50,power=2", "point:-3/4/2,power=40"])
+def test_a_light_is_dragged_by_its_reflection(modules: Page, kind: str) -> None:
+    mounted(modules, payload([GGX(alpha=0.05)], View("sphere", kind)))
+    for place in ((60, 70), (95, 85), (80, 55)):
+        modules.evaluate("(place) => viewer.moveLight(0, place)", place)
+        finished(modules)
+        bright = picture(modules).sum(-1) == picture(modules).sum(-1).max()
+        row, column = (np.mean(index) + 0.5 for index in np.nonzero(bright))
+        assert np.hypot(column - place[0], row - place[1]) < 1.5
+        handle = modules.evaluate("""() => {
+            const box = document.querySelector(".handle").getBoundingClientRect();
+            return [box.x + box.width / 2, box.y + box.height / 2];
+        }""")
+        np.testing.assert_allclose(handle, place, atol=0.5)
 
 
 def test_two_materials_are_compared(modules: Page, gl: GLCard) -> None:

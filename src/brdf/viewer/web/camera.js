@@ -9,13 +9,13 @@ import { cross, direction, dot, plus, RADIANS, unit } from "./vector.js";
  * @typedef {{x: number, y: number, width: number, height: number}} Rectangle
  */
 
-export const FOV = 30;
+const FOV = 30;
 
 /** By how much larger than needed the picture is. */
 const MARGIN = 1.1;
 
 /** What the camera sees first, as in Python: degrees from +y, and from +z towards +x. */
-export const HOME = { theta: 68, phi: 20 };
+const HOME = { theta: 68, phi: 20 };
 
 /** @param {number} theta @param {number} phi @returns {[Vector, Vector, Vector]} */
 function frameOf(theta, phi) {
@@ -83,7 +83,8 @@ export function slopesOf(picture, free) {
 }
 
 /**
- * The camera turned about the framed target, which stays in the middle of what is free.
+ * The camera turned about the framed target, which stays in the middle of what is free. To come nearer it narrows its
+ * field of view, so that it never enters the shape; to go away it steps back.
  * @param {{theta: number, phi: number, zoom: number, pan: number[]}} view
  * @param {{target: Vector, distance: number}} framed
  * @param {{width: number, height: number}} picture
@@ -92,13 +93,14 @@ export function slopesOf(picture, free) {
  */
 export function placed(view, framed, picture, free) {
     const frame = frameOf(view.theta, view.phi);
-    const distance = framed.distance / view.zoom;
-    const pixel = (2 * distance * Math.tan((FOV / 2) * RADIANS)) / picture.height;
+    const distance = framed.distance / Math.min(view.zoom, 1);
+    const half = Math.tan((FOV / 2) * RADIANS) / Math.max(view.zoom, 1);
+    const pixel = (2 * distance * half) / picture.height;
     const across = free.x + free.width / 2 - picture.width / 2;
     const down = free.y + free.height / 2 - picture.height / 2;
     let target = plus(framed.target, frame[0], -across * pixel - view.pan[0] * framed.distance);
     target = plus(target, frame[1], down * pixel - view.pan[1] * framed.distance);
-    return { position: plus(target, frame[2], distance), target, frame, fov: FOV };
+    return { position: plus(target, frame[2], distance), target, frame, fov: (2 * Math.atan(half)) / RADIANS };
 }
 
 /**

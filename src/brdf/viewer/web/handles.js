@@ -22,10 +22,11 @@ export function ballOf({ least, greatest }) {
 }
 
 /**
- * The direction to a light whose mirror image on the ball is at a place of the pane; beside the ball, at its rim.
+ * Where on the ball a place of the pane is, and the direction to a light whose mirror image is there; beside the ball,
+ * at its rim.
  * @param {Seen} seen
  * @param {[number, number]} place
- * @returns {Vector}
+ * @returns {{at: Vector, toward: Vector}}
  */
 export function mirrored({ camera, ball, size }, place) {
     const half = Math.tan((camera.fov * Math.PI) / 360);
@@ -38,42 +39,46 @@ export function mirrored({ camera, ball, size }, place) {
     const inside = ball.radius ** 2 - dot(closest, closest);
     const normal = unit(inside > 0 ? plus(closest, ray, -Math.sqrt(inside)) : closest);
     const view = unit(plus(from, normal, -ball.radius));
-    return unit(plus(normal.map((n) => 2 * dot(normal, view) * n), view, -1));
+    const toward = unit(plus(normal.map((n) => 2 * dot(normal, view) * n), view, -1));
+    return { at: plus(ball.middle, normal, ball.radius), toward };
 }
 
 /**
  * Where on the pane the ball mirrors a light.
  * @param {Seen} seen
- * @param {Vector} toward the light
+ * @param {Light} light
  */
-function mirrorPlace({ camera, ball, size }, toward) {
+function mirrorPlace({ camera, ball, size }, light) {
     let view = unit(plus(camera.position, ball.middle, -1));
     let at = ball.middle;
-    for (let round = 0; round < 3; round++) {
-        const sum = plus(toward, view);
+    for (let round = 0; round < 8; round++) {
+        const sum = plus(towardLight(light, at), view);
         at = plus(ball.middle, dot(sum, sum) > 1e-6 ? unit(sum) : camera.frame[1], ball.radius);
         view = unit(plus(camera.position, at, -1));
     }
     return projected(camera, at, size);
 }
 
-/** @param {Light} light @param {Ball} ball @returns {Vector} the unit vector from the ball to the light */
-function towardLight(light, ball) {
-    if (light.kind === "point") return unit(plus(/** @type {number[]} */ (light.position), ball.middle, -1));
+/** @param {Light} light @param {Vector} from @returns {Vector} the unit vector from there to the light */
+function towardLight(light, from) {
+    if (light.kind === "point") return unit(plus(/** @type {number[]} */ (light.position), from, -1));
     return direction(light.theta ?? 0, light.phi ?? 0);
 }
 
 /**
- * The light, moved into a direction; a point light keeps its distance.
+ * The light, moved into a direction as seen from a point; a point light keeps its distance from the ball.
  * @param {Light} light
- * @param {Vector} toward
+ * @param {{at: Vector, toward: Vector}} place
  * @param {Ball} ball
  * @returns {Light}
  */
-export function turnedTo(light, toward, ball) {
+export function turnedTo(light, { at, toward }, ball) {
     if (light.kind === "point") {
-        const offset = plus(/** @type {number[]} */ (light.position), ball.middle, -1);
-        return { ...light, position: plus(ball.middle, toward, Math.hypot(...offset)) };
+        const old = plus(/** @type {number[]} */ (light.position), ball.middle, -1);
+        const from = plus(at, ball.middle, -1);
+        const across = dot(from, toward);
+        const reach = Math.sqrt(Math.max(0, across * across + dot(old, old) - dot(from, from))) - across;
+        return { ...light, position: plus(at, toward, Math.max(reach, 0.01 * ball.radius)) };
     }
     const [theta, phi] = angles(toward);
     return { ...light, theta, phi };
@@ -87,8 +92,9 @@ export function turnedTo(light, toward, ball) {
  * @param {Ball} ball
  */
 export function turnedBy(light, across, down, ball) {
-    const [theta, phi] = angles(towardLight(light, ball));
-    return turnedTo(light, direction(Math.min(179, Math.max(1, theta + down)), phi + across), ball);
+    const [theta, phi] = angles(towardLight(light, ball.middle));
+    const toward = direction(Math.min(179, Math.max(1, theta + down)), phi + across);
+    return turnedTo(light, { at: ball.middle, toward }, ball);
 }
 
 /** The handles over the canvas. */
@@ -112,7 +118,7 @@ export class Handles {
         while (made.length > lights.length) this.element.lastChild?.remove();
         while (made.length < lights.length) this.element.append(this.made(made.length));
         lights.forEach((light, i) => {
-            const [x, y] = mirrorPlace(seen, towardLight(light, seen.ball));
+            const [x, y] = mirrorPlace(seen, light);
             const handle = /** @type {HTMLElement} */ (made[i]);
             const brightest = Math.max(...light.power) || 1;
             handle.style.transform = `translate(${(x + seen.x).toFixed(1)}px, ${y.toFixed(1)}px)`;

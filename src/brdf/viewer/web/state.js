@@ -22,7 +22,7 @@ export const RANGES = {
     gain: [1, 256],
     theta: [1, 179],
     phi: [-1e6, 1e6],
-    zoom: [0.2, 8],
+    zoom: [0.2, 20],
     turn: [-1e6, 1e6],
     strength: [0.01, 100],
     exposure: [-10, 10],

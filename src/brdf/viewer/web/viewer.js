@@ -203,8 +203,8 @@ export class Viewer {
     moveLight(index, place) {
         const pane = this.panes.findLast((p) => place[0] >= p.place.x) ?? this.panes[0];
         const seen = this.seen(pane);
-        const toward = mirrored(seen, [place[0] - pane.place.x, place[1]]);
-        this.set({ lights: this.state.lights.with(index, turnedTo(this.state.lights[index], toward, seen.ball)) });
+        const mirror = mirrored(seen, [place[0] - pane.place.x, place[1]]);
+        this.set({ lights: this.state.lights.with(index, turnedTo(this.state.lights[index], mirror, seen.ball)) });
     }
 
     /** @param {number} across degrees @param {number} down degrees @param {number} index */
