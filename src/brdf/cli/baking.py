@@ -14,6 +14,7 @@ from ..errors import FileError, ParameterError
 from . import output
 
 if TYPE_CHECKING:
+    from ..export import Exported
     from ..reflectance import Reflectance
 
 As = Annotated[
@@ -80,20 +81,46 @@ def convert(
     json: bool,
     format: str | None = None,
 ) -> None:
-    """Convert and print what it cost. `out` is a folder where it is one already, or ends in a slash."""
-    from ..conversion import convert
+    """Convert and print what it cost: to a file or, where it is one already or ends in a slash, a folder."""
+    from ..conversion import bake, convert
+    from ..export import export
+    from ..export.target import targets
+
+    if format is None and Path(out).suffix.lower() in targets():
+        output.require_writable(out)
+        with output.working(f"writing {Path(out).name}"):
+            done = export(bake(m, representation, **options) if representation or options else m, out)
+        exported(m, Path(out), done, json)
+        return
 
     _require_place(m, out, representation)
     place = Path(out)
     with output.working(f"writing {place.name}"):
-        done = convert(m, out, representation, format, **options)
-    comparison = done.comparison
+        made = convert(m, out, representation, format, **options)
+    comparison = made.comparison
     if json:
-        output.print_json({"file": out, "file_bytes": done.file_bytes} | comparison.numbers())
+        output.print_json({"file": out, "file_bytes": made.file_bytes} | comparison.numbers())
         return
     print(place.resolve())
-    rows = [("file", output.format_bytes(done.file_bytes)), *comparison.rows()]
+    rows = [("file", output.format_bytes(made.file_bytes)), *comparison.rows()]
     output.print_table(("", f"{comparison.reference} → {place.name}"), rows)
+
+
+def exported(m: Reflectance, out: Path, done: Exported, json: bool) -> None:
+    """Print what an export wrote and, where that is not exactly `m`, how far it is from it."""
+    from ..metrics import compare
+
+    sizes = {str(path): path.stat().st_size for path in done.files}
+    compared = None if done.stands_for is None else compare(m, done.stands_for)
+    if json:
+        named = {"function": done.function} if done.function else {}
+        output.print_json(named | {"files": sizes} | ({} if compared is None else compared.numbers()))
+        return
+    print(done.files[0].resolve())
+    rows = [(path, output.format_bytes(size)) for path, size in sizes.items()]
+    output.print_table(("", done.function or out.suffix.lstrip(".")), rows)
+    if compared is not None:
+        output.print_table(("", f"{compared.reference} → {out.name}"), compared.rows())
 
 
 def _require_place(m: Reflectance, out: str, representation: str | None) -> None:

@@ -12,10 +12,11 @@ from ..errors import ParameterError, UnknownFormatError
 from ..reflectance import Reflectance
 from ..shaders import LANGUAGES
 from .shaders import write_shader
+from .target import targets
 
 PAGE = ".html"
 
-FORMATS = (*LANGUAGES, PAGE)
+FORMATS = (*LANGUAGES, PAGE, *targets())
 
 
 class Exported(NamedTuple):
@@ -24,14 +25,17 @@ class Exported(NamedTuple):
     function: str
     """Name of the function in the shader; of a page ""."""
     files: tuple[Path, ...]
-    """The shader, its description, and its textures if it has any; or the page."""
+    """The shader, its description and textures; or the page; or a renderer's file and what it reads."""
+    stands_for: Reflectance | None = None
+    """What a renderer's file describes, where that is not exactly what was given."""
 
 
 def export(
     m: Reflectance | Sequence[Reflectance], path: str | os.PathLike[str], function: str | None = None, **start: Any
 ) -> Exported:
     """Write `m` as a shader: `.glsl` (GLSL ES 3.00 and GLSL 3.30, without a `#version` line) or `.wgsl`; or it, or
-    several to compare, as a page to turn them in: `.html`, one file that needs no other and no network.
+    several to compare, as a page to turn them in: `.html`, one file that needs no other and no network; or for a
+    renderer: `.xml` (Mitsuba 3), `.pbrt` (pbrt-v4), `.mtlx` (MaterialX), `.gltf`, `.py` (a script for Blender).
 
     A shader's function, `brdf_NAME(wi, wo)` unless `function` names it, gives f [1/sr] without the cosine, zero below
     the horizon; its comment says how to use it. Beside PATH go PATH.json, the parameters' values and what the textures
@@ -51,7 +55,12 @@ def export(
     if start:
         raise ParameterError(f"{min(start)!r} is how a page starts and has no effect with {kind}")
     if len(shown) != 1:
-        raise ParameterError(f"a shader is written of one reflectance, got {len(shown)}; a page, .html, takes several")
+        raise ParameterError(f"{kind} is written of one reflectance, got {len(shown)}; a page, .html, takes several")
+    if kind in targets():
+        if function is not None:
+            raise ParameterError(f"{kind} has no function to name; 'function' belongs to .glsl and .wgsl")
+        written = targets()[kind].write(shown[0], place)
+        return Exported("", written.files, written.stands_for)
     return Exported(*write_shader(shown[0], place, kind, function))
 
 

@@ -30,6 +30,7 @@ def command(
 
     What was written is read back and compared with the source, to say what was lost. With --as, or an option of a
     representation, it is baked first. `brdf list formats` tells what is read and written.
+    Files of renderers (.mtlx, .gltf, .xml, .pbrt, .py for Blender) are written as by `brdf export`.
 
     \b
     Examples:
@@ -37,6 +38,7 @@ def command(
       brdf convert measured.bsdf measured.binary
       brdf convert merl.fit@chrome chrome.bsdf
       brdf convert measured.bin measured.bsdf --format zemax-text
+      brdf convert measured.binary measured.mtlx
       brdf convert measured.binary small.safetensors --as slice-stack --budget 64K
     """
     options = given(budget=budget, anisotropic=anisotropic, angles=angles, size=size, blend=blend, storage=storage)

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from .. import arguments, output, scene
-from ..baking import Anisotropic, As, Budget, given
+from ..baking import Anisotropic, As, Budget, exported, given
 
 
 def command(
@@ -16,7 +16,7 @@ def command(
         list[str],
         typer.Argument(metavar="MATERIAL...", help="One; for a page, several to compare. As for other verbs."),
     ],
-    out: Annotated[Path, typer.Argument(metavar="OUT", help="Shader, .glsl or .wgsl, or page, .html.")],
+    out: Annotated[Path, typer.Argument(metavar="OUT", help="Shader .glsl or .wgsl, page .html, or for a renderer.")],
     function: Annotated[
         str | None, typer.Option(metavar="NAME", help="Name of a shader's function. [brdf_MATERIAL]")
     ] = None,
@@ -36,6 +36,8 @@ def command(
     A shader is a function of two directions in GLSL or WGSL. Beside OUT go OUT.json, the values of its parameters and
     what its textures are, and OUT.bin, their texels; a comment in the shader shows its use. A page is one file that
     needs no other and no network; --mesh, --light, --env, --exposure, --tone and --no-shadows are how it starts.
+    For renderers: .xml (Mitsuba 3), .pbrt (pbrt-v4), .mtlx (MaterialX with OpenPBR), .gltf, .py (a script for Blender);
+    how far what is written is from the material is printed.
     With --as or --budget the material is baked first, which shaders of measured ones without a formula need.
 
     \b
@@ -43,13 +45,14 @@ def command(
       brdf export GGX:alpha=0.2,F0=1/.78/.34 gold.glsl
       brdf export measured.bsdf measured.wgsl --as slice-stack --budget 64K
       brdf export measured.binary baked.safetensors compared.html --mesh sphere
+      brdf export measured.binary measured.mtlx
     """
     from ...conversion import bake
     from ...export import export, format_of
 
     options = given(budget=budget, anisotropic=anisotropic)
     start = scene.given(mesh, light, env, exposure, tone, no_shadows)
-    page = format_of(out) == ".html"
+    format_of(out)
     output.require_writable(out)
     shown = arguments.load_all(materials) if len(materials) > 1 else [arguments.load(materials[0])]
     if representation or options:
@@ -57,10 +60,4 @@ def command(
             shown = [bake(m, representation, **options) for m in shown]
     with output.working(f"writing {out.name}"):
         done = export(shown, out, function, **start)
-    sizes = {str(path): path.stat().st_size for path in done.files}
-    if json:
-        output.print_json(({} if page else {"function": done.function}) | {"files": sizes})
-        return
-    print(done.files[0].resolve())
-    rows = [(path, output.format_bytes(size)) for path, size in sizes.items()]
-    output.print_table(("", done.function or "page"), rows)
+    exported(shown[0], out, done, json)

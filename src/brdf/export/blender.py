@@ -1,0 +1,56 @@
+"""Blender: a script `.py` that makes the material with a Principled BSDF (Blender 4.0 and newer)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ..container import replacing
+from ..reflectance import Reflectance
+from .principled import index_of, principled
+from .target import Target, Written
+
+SCRIPT = '''"""Makes the material {name!r} in Blender 4.0 or newer: open it in the Text Editor and run it."""
+
+NAME = {name!r}
+INPUTS = {{
+{inputs}
+}}
+
+
+def make():
+    import bpy
+
+    material = bpy.data.materials.new(NAME)
+    material.use_nodes = True
+    principled = next(node for node in material.node_tree.nodes if node.type == "BSDF_PRINCIPLED")
+    principled.distribution = "GGX"
+    for socket, value in INPUTS.items():
+        principled.inputs[socket].default_value = value
+    return material
+
+
+if __name__ == "__main__":
+    make()
+'''
+
+
+def write(m: Reflectance, path: Path) -> Written:
+    """The inputs of a Principled BSDF, by a fit of Disney's model, from which it descends."""
+    made = principled(m)
+    row: dict[str, Any] = dict(made.values)
+    inputs = {
+        "Base Color": (*(round(float(x), 6) for x in row["base_color"]), 1.0),
+        "Metallic": round(float(row["metallic"]), 6),
+        "Roughness": round(float(row["roughness"]), 6),
+        "IOR": round(index_of(float(row["specular"])), 6),
+        "Specular IOR Level": 0.5,
+        "Anisotropic": round(float(row["anisotropic"]), 6),
+    }
+    listed = "\n".join(f'    "{socket}": {value!r},' for socket, value in inputs.items())
+    with replacing(path) as temporary:
+        temporary.write_text(SCRIPT.format(name=m.name or type(m).__name__, inputs=listed), "utf-8")
+    return Written((path,), made.named(m.name, f"principled parameters in {path.name}"))
+
+
+TARGET = Target("Blender", ".py", "a script that sets up a Principled BSDF, by a fit", write)

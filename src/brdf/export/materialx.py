@@ -1,0 +1,40 @@
+"""MaterialX with OpenPBR Surface: `.mtlx`, read by most tools of film and by many engines."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from pathlib import Path
+
+import numpy as np
+
+from ..container import replacing
+from ..models import get as model
+from ..reflectance import Reflectance
+from .principled import open_pbr, principled
+from .target import Target, Written, identifier
+
+VERSION = "1.39"
+
+
+def write(m: Reflectance, path: Path) -> Written:
+    """An `open_pbr_surface` and its material; `m` itself where it is OpenPBR, else by a principled fit."""
+    surface = m if isinstance(m, model("OpenPBR")) else open_pbr(principled(m))
+    name = identifier(m)
+    root = ET.Element("materialx", version=VERSION, colorspace="lin_rec709")
+    shader = ET.SubElement(root, "open_pbr_surface", name=f"{name}_surface", type="surfaceshader")
+    for parameter, value in surface.values.items():
+        kind, text = ("float", f"{value:.7g}") if isinstance(value, float) else ("color3", _list(value))
+        ET.SubElement(shader, "input", name=parameter, type=kind, value=text)
+    material = ET.SubElement(root, "surfacematerial", name=name, type="material")
+    ET.SubElement(material, "input", name="surfaceshader", type="surfaceshader", nodename=f"{name}_surface")
+    ET.indent(root)
+    with replacing(path) as temporary:
+        ET.ElementTree(root).write(temporary, encoding="utf-8", xml_declaration=True)
+    return Written((path,), surface.named(m.name, f"OpenPBR in {path.name}"))
+
+
+def _list(value: object) -> str:
+    return ", ".join(f"{x:.7g}" for x in np.asarray(value, np.float64))
+
+
+TARGET = Target("MaterialX", ".mtlx", "OpenPBR Surface, by a fit", write)

@@ -1,0 +1,49 @@
+"""Files of renderers: a module of this folder enters one by defining `TARGET`."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import pkgutil
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from ..reflectance import Reflectance
+
+Say = Callable[[str], None]
+
+
+class Written(NamedTuple):
+    """What a target wrote."""
+
+    files: tuple[Path, ...]
+    stands_for: Reflectance
+    """What the file describes, as this package evaluates it: how far that is from what was given is the error."""
+
+
+@dataclass(frozen=True)
+class Target:
+    """One kind of file for a renderer."""
+
+    name: str
+    extension: str
+    doc: str
+    """One line."""
+    write: Callable[[Reflectance, Path], Written]
+
+
+@functools.cache
+def targets() -> dict[str, Target]:
+    """Every target by extension."""
+    package = importlib.import_module(__package__)
+    modules = [importlib.import_module(f"{__package__}.{m.name}") for m in pkgutil.iter_modules(package.__path__)]
+    return {module.TARGET.extension: module.TARGET for module in modules if hasattr(module, "TARGET")}
+
+
+def identifier(m: Reflectance) -> str:
+    """A name that files of all targets take: letters, digits and underscores, no digit first."""
+    plain = re.sub(r"\W+", "_", m.name or type(m).__name__, flags=re.ASCII).strip("_") or "material"
+    return plain if not plain[0].isdigit() else f"_{plain}"

@@ -1,0 +1,184 @@
+"""Files of renderers, read back by each one's own library where there is one."""
+
+from __future__ import annotations
+
+import json
+import sys
+import xml.etree.ElementTree as ET
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import brdf
+from brdf import io
+from brdf.color import rgb_weights
+from brdf.errors import ParameterError, ReflectanceError
+from brdf.export import pbrt, principled
+from brdf.export.mitsuba_scene import bsdf_dict
+from brdf.export.target import targets
+from brdf.models import Disney, GltfMetallicRoughness, Lambertian, Microfacet, OpenPBR
+from helpers import random_directions
+
+GLTF = GltfMetallicRoughness(base_color=(0.8, 0.4, 0.1), metallic=0.3, roughness=0.5).named("an orange")
+DISNEY = Disney(base_color=(0.3, 0.2, 0.1), metallic=0.2, roughness=0.4, anisotropic=0.5, masking="2014").named(
+    "1st wood"
+)
+WI, WO = random_directions(300, 1, 0.1), random_directions(300, 2, 0.1)
+
+
+@pytest.fixture(scope="module")
+def red():
+    """What a fit has to find: not one of the principled models."""
+    return (Lambertian(albedo=(0.3, 0.05, 0.03)) + Microfacet(alpha=0.2, F0=0.04)).named("red")
+
+
+def test_targets_are_those_of_the_documentation():
+    assert set(targets()) == {".gltf", ".mtlx", ".pbrt", ".py", ".xml"}
+
+
+def test_materialx_is_valid_and_holds_the_parameters(tmp_path, red):
+    mx = pytest.importorskip("MaterialX")
+    for m in (DISNEY, red):
+        done = brdf.export(m, tmp_path / "m.mtlx")
+        document, library = mx.createDocument(), mx.createDocument()
+        mx.loadLibraries(mx.getDefaultDataLibraryFolders(), mx.getDefaultDataSearchPath(), library)
+        mx.readFromXmlFile(document, str(tmp_path / "m.mtlx"))
+        document.setDataLibrary(library)
+        valid, message = document.validate()
+        assert valid, message
+        (shader,) = document.getNodes("open_pbr_surface")
+        assert shader.getNodeDef() is not None
+        for name, value in done.stands_for.values.items():
+            given = shader.getInputValue(name)
+            found = given if isinstance(given, float) else [given[0], given[1], given[2]]
+            np.testing.assert_allclose(found, value, rtol=1e-5, atol=1e-7)
+        (material,) = document.getMaterialNodes()
+        assert [node.getName() for node in mx.getShaderNodes(material)] == [shader.getName()]
+
+
+def test_openpbr_is_written_as_it_is(tmp_path):
+    m = OpenPBR(coat_weight=0.5, fuzz_weight=0.2)
+    assert brdf.export(m, tmp_path / "m.mtlx").stands_for is m
+
+
+def test_gltf_is_read_by_its_library(tmp_path, red):
+    pygltflib = pytest.importorskip("pygltflib")
+    brdf.export(GLTF, tmp_path / "m.gltf")
+    (material,) = pygltflib.GLTF2().load(str(tmp_path / "m.gltf")).materials
+    row = material.pbrMetallicRoughness
+    assert material.name == "an orange"
+    assert (row.baseColorFactor, row.metallicFactor, row.roughnessFactor) == ([0.8, 0.4, 0.1, 1.0], 0.3, 0.5)
+    fitted = brdf.export(red, tmp_path / "red.gltf").stands_for
+    assert brdf.compare(red, fitted).psnr_mean > 25
+    saved = json.loads((tmp_path / "red.gltf").read_text())["materials"][0]["pbrMetallicRoughness"]
+    np.testing.assert_allclose(saved["baseColorFactor"][:3], fitted.base_color, atol=1e-6)
+
+
+def test_blender_gets_the_sockets_of_its_principled_node(tmp_path):
+    """A stand-in for Blender's module, with the sockets that Principled has since 4.0."""
+    brdf.export(DISNEY, tmp_path / "m.py")
+    sockets = ("Base Color", "Metallic", "Roughness", "IOR", "Alpha", "Specular IOR Level", "Anisotropic")
+    inputs = {name: SimpleNamespace(default_value=None) for name in sockets}
+    node = SimpleNamespace(type="BSDF_PRINCIPLED", inputs=inputs, distribution="MULTI_GGX")
+    material = SimpleNamespace(use_nodes=False, node_tree=SimpleNamespace(nodes=[SimpleNamespace(type="OUT"), node]))
+    names = []
+    bpy = SimpleNamespace(data=SimpleNamespace(materials=SimpleNamespace(new=lambda n: names.append(n) or material)))
+    sys.modules["bpy"] = bpy
+    try:
+        scope = {"__name__": "__main__"}
+        exec(compile((tmp_path / "m.py").read_text(), "m.py", "exec"), scope)
+    finally:
+        del sys.modules["bpy"]
+    assert names == ["1st wood"]
+    assert material.use_nodes
+    assert node.distribution == "GGX"
+    values = {name: socket.default_value for name, socket in inputs.items()}
+    assert values["Base Color"] == (0.3, 0.2, 0.1, 1.0)
+    assert (values["Metallic"], values["Roughness"], values["Anisotropic"]) == (0.2, 0.4, 0.5)
+    assert values["IOR"] == pytest.approx(1.5, abs=1e-6)
+
+
+def eval_in_mitsuba(mi, bsdf):
+    values = []
+    for light, viewer in zip(WI, WO, strict=True):
+        interaction = mi.SurfaceInteraction3f()
+        interaction.wi = mi.Vector3f(*viewer.tolist())
+        values.append(np.array(bsdf.eval(mi.BSDFContext(), interaction, mi.Vector3f(*light.tolist()))) / light[2])
+    return np.array(values)
+
+
+@pytest.mark.parametrize(
+    ("m", "kind", "tolerance"),
+    [
+        (Lambertian(albedo=(0.1, 0.2, 0.3)), "diffuse", 1e-5),
+        (
+            Microfacet(
+                ndf="beckmann", masking="smith-separable", fresnel="conductor", alpha_x=0.2, alpha_y=0.4,
+                eta=(0.2, 0.9, 1.1), k=(3.9, 2.4, 2.1),
+            ),
+            "roughconductor",
+            2e-3,
+        ),
+        (Lambertian(albedo=0.2) + Microfacet(alpha=0.3), "measured", 0.05),
+    ],
+)  # fmt: skip
+def test_mitsuba_evaluates_what_was_written(tmp_path, m, kind, tolerance):
+    mi = pytest.importorskip("mitsuba")
+    before = mi.variant()
+    mi.set_variant("scalar_rgb")
+    try:
+        done = brdf.export(m, tmp_path / "m.xml")
+        mi.load_file(str(tmp_path / "m.xml"))
+        node = ET.parse(tmp_path / "m.xml").getroot().find("bsdf")
+        assert node.get("type") == kind
+        for string in node.findall("string"):
+            if string.get("name") == "filename":
+                string.set("value", str(tmp_path / string.get("value")))
+        node.set("version", "3.0.0")
+        found = eval_in_mitsuba(mi, mi.load_string(ET.tostring(node, "unicode")))
+        by_dict = eval_in_mitsuba(mi, mi.load_dict(bsdf_dict(m, tmp_path / "m.bsdf")))
+    finally:
+        if before:
+            mi.set_variant(before)
+    np.testing.assert_allclose(by_dict, found, rtol=1e-6, atol=1e-9)
+    expected = done.stands_for(WO, WI) if kind == "measured" else m(WI, WO)  # `measured` takes the viewer as incident
+    np.testing.assert_allclose(found, expected, rtol=2e-3, atol=1e-4)
+    error = np.abs(found - m(WI, WO)).mean() / m(WI, WO).mean()
+    assert error < tolerance
+
+
+def test_pbrt_gets_a_spectral_measurement(tmp_path, red):
+    done = brdf.export(red, tmp_path / "m.pbrt")
+    assert (tmp_path / "m.pbrt").read_text().splitlines()[-1] == (
+        'MakeNamedMaterial "red" "string type" "measured" "string filename" "m.bsdf"'
+    )
+    fields = io.rgl.read_tensors(tmp_path / "m.bsdf")
+    read_by_pbrt = "theta_i phi_i ndf sigma vndf luminance spectra wavelengths description jacobian"
+    assert set(fields) == set(read_by_pbrt.split())
+    assert fields["spectra"].shape[2] == len(fields["wavelengths"])
+    assert fields["spectra"].min() >= 0
+    assert brdf.compare(red, io.read(tmp_path / "m.bsdf")).psnr_mean > 40
+    assert done.stands_for.wavelengths is not None
+
+
+def test_spectra_of_primaries_have_their_colours():
+    basis = pbrt.spectra_of_primaries(pbrt.WAVELENGTHS)
+    np.testing.assert_allclose(rgb_weights(pbrt.WAVELENGTHS).T @ basis, np.eye(3), atol=1e-9)
+    np.testing.assert_allclose(basis.sum(1), 1, atol=1e-9)
+
+
+def test_the_principled_fit_finds_itself():
+    """A model that is one already is kept; an OpenPBR of the same parameters looks alike."""
+    assert principled.principled(DISNEY) is DISNEY
+    plain = Disney(base_color=(0.3, 0.2, 0.1), roughness=0.5, masking="2014")
+    assert brdf.compare(plain, principled.open_pbr(plain)).psnr_mean > 25
+
+
+@pytest.mark.parametrize("extension", [".gltf", ".mtlx", ".pbrt", ".py", ".xml"])
+def test_what_cannot_be_written(tmp_path, extension):
+    with pytest.raises(ReflectanceError, match="mirror"):
+        brdf.export(brdf.models.SmoothConductor(), tmp_path / f"m{extension}")
+    with pytest.raises(ParameterError, match="has no function to name"):
+        brdf.export(GLTF, tmp_path / f"m{extension}", function="f")
+    assert not list(tmp_path.iterdir())
