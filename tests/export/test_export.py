@@ -158,7 +158,7 @@ def test_more_channels_than_four_become_several_textures(tmp_path: Path) -> None
 
 
 def test_another_extension_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(UnknownFormatError, match=r"exports are .glsl, .wgsl or .html; choose one of them"):
+    with pytest.raises(UnknownFormatError, match=r"exports are .glsl, .wgsl, .html, .gltf, .mtlx, .pbrt, .py or .xml"):
         brdf.export(GGX(), tmp_path / "m.hlsl")
 
 

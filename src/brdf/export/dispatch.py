@@ -16,8 +16,6 @@ from .target import targets
 
 PAGE = ".html"
 
-FORMATS = (*LANGUAGES, PAGE, *targets())
-
 
 class Exported(NamedTuple):
     """What `export` wrote."""
@@ -55,7 +53,8 @@ def export(
     if start:
         raise ParameterError(f"{min(start)!r} is how a page starts and has no effect with {kind}")
     if len(shown) != 1:
-        raise ParameterError(f"{kind} is written of one reflectance, got {len(shown)}; a page, .html, takes several")
+        what = "a shader" if kind in LANGUAGES else "a renderer's file"
+        raise ParameterError(f"{what} is written of one reflectance, got {len(shown)}; a page, .html, takes several")
     if kind in targets():
         if function is not None:
             raise ParameterError(f"{kind} has no function to name; 'function' belongs to .glsl and .wgsl")
@@ -65,10 +64,11 @@ def export(
 
 
 def format_of(path: Path) -> str:
-    """The extension, one of `FORMATS`. Raises UnknownFormatError."""
+    """The extension, in lower case. Raises UnknownFormatError for one that no export has."""
     kind = path.suffix.lower()
-    if kind not in FORMATS:
-        raise UnknownFormatError(path, f"exports are {', '.join(FORMATS[:-1])} or {FORMATS[-1]}; choose one of them.")
+    known = [*LANGUAGES, PAGE, *targets()]
+    if kind not in known:
+        raise UnknownFormatError(path, f"exports are {', '.join(known[:-1])} or {known[-1]}; choose one of them.")
     return kind
 
 

@@ -40,7 +40,8 @@ def targets() -> dict[str, Target]:
     """Every target by extension."""
     package = importlib.import_module(__package__)
     modules = [importlib.import_module(f"{__package__}.{m.name}") for m in pkgutil.iter_modules(package.__path__)]
-    return {module.TARGET.extension: module.TARGET for module in modules if hasattr(module, "TARGET")}
+    found = {module.TARGET.extension: module.TARGET for module in modules if hasattr(module, "TARGET")}
+    return dict(sorted(found.items()))
 
 
 def identifier(m: Reflectance) -> str:
