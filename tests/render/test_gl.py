@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -142,6 +143,19 @@ def test_without_a_driver_the_processor_draws(monkeypatch: pytest.MonkeyPatch) -
 def test_a_shader_that_the_driver_refuses(gl: GLCard) -> None:
     with card() as opened, pytest.raises(DriverError, match="refuses a shader"):
         opened.program("void main() { gl_Position = vec4(0.0); }", "void main() { nonsense; }")
+
+
+def test_what_is_too_large_for_the_driver_is_left_to_the_processor() -> None:
+    with card() as opened, pytest.raises(DriverError, match=r"takes \d+ texels along an axis, not 1000000 x 1"):
+        opened.target(1000000, 1, depth=False)
+
+
+def test_any_thread_may_draw() -> None:
+    with ThreadPoolExecutor(2) as pool:
+        drawn = list(pool.map(lambda _: render(METAL, lights=LIGHTS, size=(16, 12), backend="gl").pixels, range(4)))
+    for pixels in drawn:
+        np.testing.assert_array_equal(pixels, drawn[0])
+    np.testing.assert_array_equal(render(METAL, lights=LIGHTS, size=(16, 12), backend="gl").pixels, drawn[0])
 
 
 def test_nothing_stays_on_the_card() -> None:

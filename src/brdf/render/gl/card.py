@@ -89,8 +89,7 @@ class Card:
     def texture(self, texels: NDArray[Any]) -> Any:
         """A texture of float32 (rows, columns, channels), read texel by texel."""
         rows, columns, channels = texels.shape
-        texture = self.context.texture((columns, rows), channels, np.ascontiguousarray(texels, np.float32), dtype="f4")
-        return self._plain(texture)
+        return self._texture((columns, rows), channels, np.ascontiguousarray(texels, np.float32).tobytes(), "f4")
 
     def texel_list(self, texels: Floats) -> Any:
         """A texture that holds a list (N, channels), row by row; one texel of zeros where it is empty."""
@@ -111,22 +110,27 @@ class Card:
             words = np.frombuffer(part, "<u4")
             tens = np.stack([(words >> shift & 1023) / np.float32(1023) for shift in (0, 10, 20)], -1)
             part = np.concatenate([tens, np.ones_like(tens[:, :1])], -1).astype(np.float32).tobytes()
-        make = self.context.texture if texture["target"] == "TEXTURE_2D" else self.context.texture3d
-        made = self._plain(make(texture["size"], channels, part, dtype=TYPES.get(texture["type"], "f4")))
+        made = self._texture(tuple(texture["size"]), channels, part, TYPES.get(texture["type"], "f4"))
         if filtered:
             made.filter = self._gl.LINEAR, self._gl.LINEAR
         return made
 
-    def _plain(self, texture: Any) -> Any:
+    def _texture(self, size: tuple[int, ...], channels: int, data: bytes | None, kind: str) -> Any:
+        """Raises DriverError for more texels along an axis than the driver takes."""
+        limit = int(self.context.info["GL_MAX_TEXTURE_SIZE" if len(size) == 2 else "GL_MAX_3D_TEXTURE_SIZE"])
+        if max(size) > limit:
+            raise DriverError(f"{self.name} takes {limit} texels along an axis, not {' x '.join(map(str, size))}")
+        make = self.context.texture if len(size) == 2 else self.context.texture3d
+        texture = self._own(make(size, channels, data, dtype=kind))
         texture.filter = self._gl.NEAREST, self._gl.NEAREST
         texture.repeat_x = texture.repeat_y = False
-        if hasattr(texture, "repeat_z"):
+        if len(size) == 3:
             texture.repeat_z = False
-        return self._own(texture)
+        return texture
 
     def target(self, width: int, height: int, depth: bool) -> Target:
         """Something to draw radiance into."""
-        texture = self._plain(self.context.texture((width, height), 4, dtype="f4"))
+        texture = self._texture((width, height), 4, None, "f4")
         below = self._own(self.context.depth_renderbuffer((width, height))) if depth else None
         return Target(texture, self._own(self.context.framebuffer([texture], below)))
 
