@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,8 @@ from brdf.errors import DriverError, ReflectanceError, SceneError, UnknownNameEr
 from brdf.models import GGX, Lambertian
 from brdf.reflectance import Reflectance
 from brdf.render import Camera, Directional, Image, Mesh, mesh, render, render_halves
-from brdf.render.gl import card
+from brdf.render.gl import Renderer, card, stages_of
+from brdf.render.task import checked
 from brdf.render.tone import developed
 from cards import GLCard
 
@@ -138,6 +140,27 @@ def test_without_a_driver_the_processor_draws(monkeypatch: pytest.MonkeyPatch) -
     with pytest.warns(RuntimeWarning, match=r"no OpenGL here \(libGL.so not loaded\); .*; the CPU draws instead"):
         drawn = render(METAL, **scene, backend="gl")
     np.testing.assert_array_equal(drawn.pixels, render(METAL, **scene).pixels)
+
+
+def test_without_the_extra_the_processor_draws(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "moderngl", None)
+    card.cache_clear()
+    with pytest.warns(RuntimeWarning, match=r"pip install 'brdf\[gl\]'; the CPU draws instead"):
+        render(METAL, lights=LIGHTS, size=(8, 8), backend="gl")
+
+
+def test_the_driver_filters_nearly_as_the_shader_does() -> None:
+    """Its own linear lookups, which most cards do with fewer bits."""
+    m = brdf.SliceStack.bake(METAL, method="points")
+    what = checked([m], "sphere", LIGHTS, None, None, SIZE, 1, 1, True, (0, 0, 0), 0)
+    found = []
+    for filtered in (False, True):
+        with card() as opened:
+            renderer = Renderer(opened, what, stages_of(what), filtered)
+            list(renderer.draw_sample((0.5, 0.5)))
+            found.append(renderer.read()[0])
+    assert found[0].max() > 1
+    assert 0 < np.abs(found[0] - found[1]).max() < 5e-3 * found[0].max()
 
 
 def test_a_shader_that_the_driver_refuses(gl: GLCard) -> None:

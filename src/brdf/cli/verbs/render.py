@@ -55,7 +55,7 @@ def command(
       brdf render gold-metallic-paint
       brdf render GGX:alpha=0.2,F0=1/.78/.34 --mesh sphere --light directional:theta=40 -o ggx.png
       brdf render measured.binary --compare fitted.safetensors --size 1200x800
-      brdf render chrome --mesh bunny.ply --env studio --backend gl --tone neutral
+      brdf render metal/gold --mesh bunny.ply --env studio --backend gl --tone neutral
     """
     from ...errors import ParameterError
     from ...render import captioned, render, render_halves
