@@ -212,7 +212,7 @@ def test_broken_files_are_refused_in_a_sentence(tmp_path: Path) -> None:
         "dark.bsdf": "field 'sigma' must be above zero everywhere",
         "nan.bsdf": "field 'rgb' holds NaN or infinity",
         "order.bsdf": "field 'theta_i' must be a list of numbers that increase",
-        "type.bsdf": "field 'vndf' must be float32 1 x 4 x n x n with n >= 2, got float64 1 x 4 x 8 x 8",
+        "type.bsdf": "field 'vndf' must be float32 1 x 4 x n x n with n >= 2, got another type 1 x 4 x 8 x 8",
         "empty.bsdf": "field 'vndf' is zero everywhere for one of the incident directions",
         "spectral.bsdf": "it holds spectra, which only Python makes colours of: brdf export FILE page.html",
         "anisotropic.bsdf": "it is anisotropic, which only Python bakes: brdf export FILE page.html",

@@ -10,7 +10,9 @@ from pathlib import Path
 
 import pytest
 
+from brdf.viewer.compact import compacted, compacted_style
 from brdf.viewer.linker import linked, sources
+from brdf.viewer.renaming import renamed
 
 MODULES = {
     "main.js": """\
@@ -111,3 +113,67 @@ def reached(entry: str) -> set[str]:
             if place not in found:
                 open_.append(place)
     return found
+
+
+RENAMED = """\
+const LIMIT = 3, { first: second = LIMIT, ...rest } = { first: undefined, third: 4, fourth: 5 };
+const list = [1, 2, 3].map((value, index) => ({ value, index, [`key${index}`]: (value) => value + LIMIT }));
+class Counter {
+    step = 2;
+    constructor(start, { by = 1 } = {}) { this.start = start; this.by = by; }
+    get value() { return this.start * this.step; }
+    static from(value) { return new Counter(value); }
+    next(...values) {
+        let sum = 0;
+        for (const value of values) sum += value * this.by;
+        for (let i = 0, n = values.length; i < n; i++) if (i) sum += i; else sum -= 1;
+        return { sum, value: this.value, next() { return sum; } };
+    }
+}
+function* counted(most) { for (let at = 0; at < most; at++) yield at; }
+async function waited(value) {
+    return (await value) ? `yes ${`${value}`.length} ${LIMIT > 2 ? "more" : "less"}` : "no";
+}
+const outer = (shadowed) => { const inner = (shadowed) => shadowed * 2; return inner(shadowed) + shadowed; };
+const { next: step } = new Counter(5).next(1, 2, 3);
+let message = "", count = 0;
+for (; count < 3; count++);
+while (count-- > 1) if (count > 5) message = count; else ;
+try { message.nothing.at(); } catch (error) { message = error instanceof TypeError ? "caught" : "other"; }
+switch (message) { case "caught": message += "!"; break; default: message = "?"; }
+const pattern = /[/]a{2}/g, half = 8 / 2 / 2;
+const object = { list, rest, outer, step: step(), message, half, found: "x/aa".replace(pattern, "b"), get most() {
+    return LIMIT; } };
+waited(1).then((said) => console.log(JSON.stringify([object, [...counted(3)], second, object.list[1].key1(1), said,
+    Counter.from(4).value, outer(2), typeof list, "LIMIT" in object, Object.keys(object),
+    Counter.from(4).next().next()])));
+"""
+
+
+def test_short_names_change_nothing(tmp_path: Path) -> None:
+    short = compacted(renamed(RENAMED))
+    assert len(short) < 0.8 * len(compacted(RENAMED))
+    for name in ("LIMIT =", "shadowed", "counted", "message ="):
+        assert name not in short
+    (tmp_path / "long.mjs").write_text(RENAMED, "utf-8")
+    (tmp_path / "short.mjs").write_text(short, "utf-8")
+    said = run(tmp_path / "long.mjs")
+    assert said.startswith('[{"list":[{"value":1')
+    assert run(tmp_path / "short.mjs") == said
+
+
+def test_short_names_leave_alone_what_the_browser_has() -> None:
+    text = "const document = 1;\nfunction a(b) { return window.name + b.length + name + e; }\n"
+    short = renamed(text)
+    assert "window.name" in short
+    assert "+ name + e" in short
+    assert ".length" in short
+
+
+def test_style_sheets_keep_what_they_say() -> None:
+    text = """\
+.a :focus, .b > i { content: "a: b ;"; color: red;  /* why */ }
+@media (x: 1px) { .c { top: calc(1px + 2px); } }
+"""
+    expected = '.a :focus,.b>i{content:"a: b ;";color:red}@media (x:1px){.c{top:calc(1px + 2px)}}\n'
+    assert compacted_style(text) == expected

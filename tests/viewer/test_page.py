@@ -18,6 +18,7 @@ import containers
 from brdf.errors import ParameterError
 from brdf.models import GGX, Lambertian
 from brdf.reflectance import Reflectance
+from brdf.viewer.compact import compacted_style
 from brdf.viewer.linker import linked, sources
 from brdf.viewer.picture import LARGEST
 
@@ -80,8 +81,8 @@ def test_pages_with_the_teapot_are_small(make: object, most: int, tmp_path: Path
 
 
 def test_the_code_is_small() -> None:
-    code = linked("main.js") + sources()["style.css"]
-    assert len(gzip.compress(code.encode(), 9)) <= 50 * 1024
+    code = linked("main.js") + compacted_style(sources()["style.css"])
+    assert len(gzip.compress(code.encode(), 9)) <= 40 * 1024
 
 
 def test_several_materials_and_how_the_page_starts(tmp_path: Path) -> None:

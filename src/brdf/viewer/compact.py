@@ -18,8 +18,9 @@ REGULAR = re.compile(r"/(?:\\.|\[(?:\\.|[^\]\\\n])*\]|[^/\\\[\n])+/[a-z]*")
 BEFORE_VALUES = frozenset({"return", "typeof", "case", "of", "in", "do", "else", "void", "delete", "await", "yield"})
 """Words after which a slash begins a regular expression; after other words it divides."""
 
-OPEN_ENDED = frozenset("{([,;=&|?:<>*%!~^.") | {"=>"}
-"""Marks after which no statement ends at the end of a line."""
+OPEN_ENDED = frozenset("{([,;=&|?:<>*%!~^.}") | {"=>"}
+"""Marks after which no statement ends at the end of a line, or has ended anyway: those that end in a brace are blocks,
+for others have a semicolon behind it."""
 
 CONTINUING = frozenset("})],;=&|?:<>*%.") | {"=>"}
 """Marks before which none does."""
@@ -29,7 +30,7 @@ def compacted(text: str) -> str:
     """The script in fewer characters. Line ends at which a statement may end are kept."""
     out: list[str] = []
     last, gap = "", ""
-    for kind, token in _tokens(text):
+    for kind, token in tokens(text):
         if kind in ("comment", "space"):
             gap = "\n" if "\n" in token or gap == "\n" else " "
             continue
@@ -42,13 +43,22 @@ def compacted(text: str) -> str:
     return "".join(out) + "\n"
 
 
+def compacted_style(text: str) -> str:
+    """A style sheet in fewer characters."""
+    parts = re.split(r'("[^"]*")', re.sub(r"/\*.*?\*/", "", text, flags=re.S))
+    for i in range(0, len(parts), 2):  # every second one is a string
+        short = re.sub(r"\s+", " ", re.sub(r"\s*([{};,>])\s*", r"\1", parts[i]))
+        parts[i] = re.sub(r":\s+", ":", short).replace(";}", "}")
+    return "".join(parts).strip() + "\n"
+
+
 def _joins(left: str, right: str) -> bool:
     """Whether two characters mean something else without space between them."""
     word = re.compile(r"[\w$]")
     return bool(word.match(left) and word.match(right)) or (left == right and left in "+-")
 
 
-def _tokens(text: str) -> Iterator[tuple[str, str]]:
+def tokens(text: str) -> Iterator[tuple[str, str]]:
     """Kind and text of each token. Raises ValueError for a template without end."""
     at, last = 0, ""
     while at < len(text):
@@ -74,21 +84,37 @@ def _expects_value(last: str) -> bool:
 
 
 def _template_end(text: str, start: int) -> int:
-    """Behind the template literal that begins at `start`; expressions in it may hold others."""
-    at = start + 1
+    """Behind the template literal that begins at `start`."""
+    return start + sum(len(part) for _, part in template_parts(text[start:]))
+
+
+def template_parts(text: str) -> Iterator[tuple[bool, str]]:
+    """The template literal that `text` begins with: whether a part is text, which has the braces around expressions, or
+    an expression, and what it says. Raises ValueError for one without end."""
+    start, at = 0, 1
     while at < len(text):
         if text[at] == "\\":
             at += 2
         elif text[at] == "`":
-            return at + 1
+            yield True, text[start : at + 1]
+            return
         elif text.startswith("${", at):
-            depth, inner = 1, at + 2
-            for kind, token in _tokens(text[inner:]):
-                inner += len(token)
-                depth += (token == "{") - (token == "}") if kind == "mark" else 0
-                if not depth:
-                    break
-            at = inner
+            yield True, text[start : at + 2]
+            start = at + 2
+            at = _expression_end(text, start)
+            yield False, text[start:at]
+            start = at
         else:
             at += 1
+    raise ValueError("a template literal has no end")
+
+
+def _expression_end(text: str, at: int) -> int:
+    """The brace that ends the expression within a template which begins at `at`."""
+    depth = 1
+    for kind, token in tokens(text[at:]):
+        depth += (token == "{") - (token == "}") if kind == "mark" else 0
+        if not depth:
+            return at
+        at += len(token)
     raise ValueError("a template literal has no end")

@@ -1,7 +1,7 @@
 """The viewer's ES modules as one script: no tools, for their syntax is kept plain.
 
 A module imports by `import { a, b as c } from "./x.js";` and exports by `export function|class|const|let`, or
-`export default`, each at the start of a line. Each becomes a function of its own, so that names need not be unique.
+`export default`, each at the start of a line. Each becomes a block of its own, so that names need not be unique.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from functools import cache
 from importlib import resources
 
 from .compact import compacted
+from .renaming import renamed
 
 IMPORT = re.compile(r'^import \{([^}]*)\} from "([^"]+)";\n', re.M)
 EXPORT = re.compile(r"^export (?:async )?(?:function\*?|class|const|let) (\w+)", re.M)
@@ -48,13 +49,14 @@ def linked(entry: str, modules: Mapping[str, str] | None = None) -> str:
     order: list[str] = []
     _visit(entry, texts, order, [])
     numbers = {path: number for number, path in enumerate(order)}
-    parts = [_wrapped(path, texts[path], numbers) for path in order]
-    body = "".join(parts)
+    exports = {path: EXPORT.findall(texts[path]) for path in order}
+    parts = [_wrapped(path, texts[path], numbers, exports) for path in order]
+    body = f"let {', '.join(map(_module, numbers.values()))};\n" + "".join(parts)
     if "export default" in texts[entry]:
-        body += f"export default {_module(numbers[entry])}.{DEFAULT};\n"
+        body += f"export default {_module(numbers[entry])}[{len(exports[entry])}];\n"
     else:
         body = f"{{\n{body}}}\n"  # a script's names are those of the whole page, but for a block's
-    return '"use strict";\n' + compacted(body)
+    return '"use strict";\n' + compacted(renamed(body))
 
 
 def _visit(path: str, texts: Mapping[str, str], order: list[str], open_: list[str]) -> None:
@@ -77,15 +79,21 @@ def _module(number: int) -> str:
     return f"module_{number}"
 
 
-def _wrapped(path: str, text: str, numbers: Mapping[str, int]) -> str:
-    """A module as a function that gives what it exports."""
+def _wrapped(path: str, text: str, numbers: Mapping[str, int], exports: Mapping[str, list[str]]) -> str:
+    """A module as a block that leaves behind what it exports, in a list: names would take room."""
 
     def bound(match: re.Match[str]) -> str:
-        names = ", ".join(re.sub(r"\s+as\s+", ": ", name.strip()) for name in match[1].split(",") if name.strip())
-        return f"const {{ {names} }} = {_module(numbers[_resolved(path, match[2])])};\n"
+        target = _resolved(path, match[2])
+        places = [""] * len(exports[target])
+        for name in filter(None, map(str.strip, match[1].split(","))):
+            given, *renamed_to = re.split(r"\s+as\s+", name)
+            if given not in exports[target]:
+                raise ValueError(f"{path} imports {given}, which {target} does not export")
+            places[exports[target].index(given)] = renamed_to[0] if renamed_to else given
+        return f"const [{', '.join(places).rstrip(', ')}] = {_module(numbers[target])};\n"
 
     body = IMPORT.sub(bound, text)
-    exported = EXPORT.findall(body)
+    exported = list(exports[path])
     body = re.sub(r"^export (?=(?:async )?(?:function|class|const|let) )", "", body, flags=re.M)
     if re.search(r"^export default ", body, re.M):
         body = re.sub(r"^export default ", f"const {DEFAULT} = ", body, count=1, flags=re.M)
@@ -93,4 +101,4 @@ def _wrapped(path: str, text: str, numbers: Mapping[str, int]) -> str:
     rest = UNKNOWN.search(body)
     if rest:
         raise ValueError(f"{path}: cannot be linked: {rest[0].strip()}")
-    return f"const {_module(numbers[path])} = (() => {{\n{body}return {{ {', '.join(exported)} }};\n}})();\n"
+    return f"{{\n{body}{_module(numbers[path])} = [{', '.join(exported)}];\n}}\n"

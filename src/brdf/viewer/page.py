@@ -11,6 +11,7 @@ from functools import cache
 from string import Template
 
 from ..reflectance import Reflectance
+from .compact import compacted_style
 from .linker import linked, sources
 from .payload import View, payload, title_of
 
@@ -42,7 +43,7 @@ def document(title: str, image: str, data: bytes | None = None) -> str:
     return Template(sources()["page.html"]).substitute(
         title=html.escape(title),
         policy=POLICY.format(**allowed, **(SERVED if data is None else ALONE)),
-        style=sources()["style.css"],
+        style=compacted_style(sources()["style.css"]),
         source="data-src" if data is None else "src",
         image=html.escape(image),
         width=PICTURE_SIZE[0],

@@ -8,6 +8,7 @@ from typing import Any
 
 from ..errors import MissingExtraError
 from ..reflectance import Reflectance
+from .compact import compacted_style
 from .linker import linked, sources
 from .payload import View, payload
 
@@ -32,7 +33,7 @@ def _widget_class() -> Any:
         """Turns, lights and compares reflectances within a notebook."""
 
         _esm = linked("widget.js")
-        _css = sources()["style.css"]
+        _css = compacted_style(sources()["style.css"])
         payload = traitlets.Bytes(b"").tag(sync=True)
         state = traitlets.Dict().tag(sync=True)
         height = traitlets.Int(480, min=120, help="pixels").tag(sync=True)

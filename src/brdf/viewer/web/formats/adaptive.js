@@ -248,11 +248,13 @@ function nodes(tensors, name) {
  * @returns {Grids}
  */
 function grids(tensors, name, first, signed = false) {
-    const { type, shape, numbers } = field(tensors, name);
+    const { shape, numbers } = field(tensors, name);
     const [ny, nx] = shape.slice(-2);
-    if (type !== "float32" || String(shape.slice(0, -2)) !== String(first) || !(Math.min(ny, nx) >= 2)) {
-        const wanted = [...first, "n", "n"].join(" x ");
-        throw new Error(`field '${name}' must be float32 ${wanted} with n >= 2, got ${type} ${shape.join(" x ")}`);
+    const isSingle = numbers instanceof Float32Array;
+    if (!isSingle || String(shape.slice(0, -2)) !== String(first) || !(Math.min(ny, nx) >= 2)) {
+        const [wanted, given] = [[...first, "n", "n"], shape].map((sizes) => sizes.join(" x "));
+        const type = isSingle ? "float32" : "another type";
+        throw new Error(`field '${name}' must be float32 ${wanted} with n >= 2, got ${type} ${given}`);
     }
     if (!isFiniteList(numbers)) throw new Error(`field '${name}' holds NaN or infinity`);
     if (!signed && numbers.some((/** @type {number} */ x) => x < 0)) {

@@ -6,14 +6,13 @@ const SIGNATURE = "tensor_file\0";
 const MOST_FIELDS = 64;
 const MOST_AXES = 8;
 
-/** By the type's code in the file, which starts at 1: its name, its bytes, and what reads it. */
-const TYPES = /** @type {const} */ ([
-    ["uint8", 1, Uint8Array], ["int8", 1, Int8Array], ["uint16", 2, Uint16Array], ["int16", 2, Int16Array],
-    ["uint32", 4, Uint32Array], ["int32", 4, Int32Array], ["uint64", 8, BigUint64Array], ["int64", 8, BigInt64Array],
-    ["float16", 2, Uint16Array], ["float32", 4, Float32Array], ["float64", 8, Float64Array],
-]);
+/** What reads each type, by its code in the file, which starts at 1; half precision is kept as its bits. */
+const TYPES = [
+    Uint8Array, Int8Array, Uint16Array, Int16Array, Uint32Array, Int32Array, BigUint64Array, BigInt64Array, Uint16Array,
+    Float32Array, Float64Array,
+];
 
-/** @typedef {{type: string, shape: number[], numbers: any}} Tensor */
+/** @typedef {{shape: number[], numbers: any}} Tensor */
 
 /** @param {Uint8Array} head */
 export function recognises(head) {
@@ -57,13 +56,13 @@ export function tensorsOf(buffer, name) {
     /** @type {Map<string, Tensor>} */
     const tensors = new Map();
     for (const { field, code, offset, shape } of entries) {
-        const [type, width, Numbers] = TYPES[code - 1];
-        const bytes = shape.reduce((product, n) => product * n, width);
+        const Numbers = TYPES[code - 1];
+        const bytes = shape.reduce((product, n) => product * n, Numbers.BYTES_PER_ELEMENT);
         if (!(offset >= place && offset + bytes <= size)) {
             const claim = `bytes ${offset} to ${offset + bytes} of a file of ${size}`;
             throw new Error(`${name}: its field '${field}' claims ${claim}; fetch it again.`);
         }
-        tensors.set(field, { type, shape, numbers: new Numbers(buffer.slice(offset, offset + bytes)) });
+        tensors.set(field, { shape, numbers: new Numbers(buffer.slice(offset, offset + bytes)) });
     }
     return tensors;
 }

@@ -168,10 +168,8 @@ class Solid {
             for (const point of points) ink.lineTo(...(/** @type {[number, number]} */ (see(point).slice(0, 2))));
             ink.stroke();
         };
-        for (const radius of [0.5, 1]) {
-            const circle = Array.from({ length: 97 }, (_, i) => spherical(Math.PI / 2, (i * Math.PI) / 48));
-            line(circle.map((w) => w.map((part) => radius * part)), named("--grid"), 1);
-        }
+        const rim = Array.from({ length: 97 }, (_, i) => spherical(Math.PI / 2, (i * Math.PI) / 48));
+        line(rim, named("--grid"), 1);
         for (const [x, y] of [[1, 0], [0, 1]]) line([[-x, -y, 0], [x, y, 0]], named("--grid"), 1);
         line([[0, 0, 0], [0, 0, 1]], named("--grid"), 1);
         const wi = spherical(this.options.angle * DEGREE, Math.PI);

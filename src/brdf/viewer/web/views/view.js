@@ -2,7 +2,7 @@
 
 import { slider, toggle } from "../controls.js";
 import { element } from "../element.js";
-import { channelOf, luminances } from "./numbers.js";
+import { channelOf, decades, luminances, powers, short, ticks } from "./numbers.js";
 import { CHANNELS, Figure, PAIR } from "./plot.js";
 
 /**
@@ -88,6 +88,24 @@ export function namesOf(materials) {
 export function curvesOf(names, values, x) {
     if (values.length > 1) return values.map((list, m) => ({ name: names[m], ...PAIR[m], x, y: luminances(list) }));
     return CHANNELS.map((channel, c) => ({ ...channel, x, y: channelOf(values[0], c) }));
+}
+
+/**
+ * From values to places on an axis, its ends, and its marks.
+ * @param {Series[]} series
+ * @param {boolean} log logarithmic, over at most so many powers of ten
+ * @param {number} most
+ */
+export function scaled(series, log, most) {
+    const lists = series.map(({ y }) => y);
+    if (log) {
+        const { low, high } = decades(lists, most);
+        const marks = powers(low, high, high - low > 4 ? 2 : 1);
+        const of = (/** @type {number} */ value) => (value > 0 ? Math.max(Math.log10(value), low - 1) : NaN);
+        return { low, high, ticks: marks.map(({ at, text }) => ({ at: Math.log10(at), text })), of };
+    }
+    const marks = ticks(Math.max(...lists.map((list) => Math.max(...list)))).map((at) => ({ at, text: short(at) }));
+    return { low: 0, high: marks[marks.length - 1].at, ticks: marks, of: (/** @type {number} */ value) => value };
 }
 
 /**
