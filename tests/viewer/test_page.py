@@ -28,7 +28,7 @@ GOLD = GGX(alpha=0.2, F0=(1, 0.78, 0.34)).named("gold <\"&'> </script>")
 @pytest.fixture(scope="module")
 def page(tmp_path_factory: pytest.TempPathFactory) -> str:
     path = tmp_path_factory.mktemp("page") / "gold.html"
-    assert brdf.export(GOLD, path) == ("", (path,))
+    assert brdf.export(GOLD, path)[:2] == ("", (path,))
     return path.read_text("utf-8")
 
 
