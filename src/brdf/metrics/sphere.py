@@ -45,8 +45,11 @@ def sphere_lights(size: int = SPHERE_SIZE, angles: tuple[float, ...] = LIGHT_ANG
     return _lit_pixels(size, angles)[2]
 
 
-@functools.lru_cache(maxsize=4)
-def _lit_pixels(size: int, angles: tuple[float, ...]) -> tuple[Array, Array, NDArray[np.intp]]:
+def sphere_frames(size: int) -> Array:
+    """(pixels, 3, 3) tangent, bitangent and normal as rows, of the `size` x `size` pixels that show the sphere.
+
+    Rows of pixels run upwards; the viewer looks along the picture's z axis. Raises ParameterError for a size below 2.
+    """
     if size < 2:
         raise ParameterError(f"a sphere's picture needs at least 2 pixels, got {size}")
     axis = (2 * np.arange(size) + 1) / size - 1
@@ -56,8 +59,13 @@ def _lit_pixels(size: int, angles: tuple[float, ...]) -> tuple[Array, Array, NDA
     normal = np.stack([x, y, np.sqrt(1 - x * x - y * y)], -1)
     tangent = np.stack([normal[:, 2], np.zeros_like(x), -x], -1)
     tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
-    frame = np.stack([tangent, np.cross(normal, tangent), normal], 1)
-    wo = frame[:, :, 2]  # the viewer looks along the picture's z axis
+    return np.stack([tangent, np.cross(normal, tangent), normal], 1)
+
+
+@functools.lru_cache(maxsize=4)
+def _lit_pixels(size: int, angles: tuple[float, ...]) -> tuple[Array, Array, NDArray[np.intp]]:
+    frame = sphere_frames(size)
+    wo = frame[:, :, 2]
     lights, views, counts = [], [], []
     for phi in np.radians(angles):
         wi = frame @ np.array([np.sin(phi), 0.0, np.cos(phi)])

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..reflectance import Reflectance
+from .sphere import sphere_frames
 
 Array = NDArray[np.floating[Any]]
 
@@ -45,7 +46,10 @@ def radiance_of_surroundings(directions: Array) -> Array:
 
 
 def lit_from_all_around(m: Reflectance, size: int = SIZE) -> Array:
-    """(pixels, 3) radiance towards the viewer of the pixels of a sphere that is lit from all around."""
+    """(pixels, 3) radiance towards the viewer of the pixels of a sphere that is lit from all around.
+
+    Pixels in the order of `sphere_frames`. Raises ParameterError for a size below 2.
+    """
     wi, wo, weight, pixel, count = _pairs(size)
     reflected = m(wi, wo) * weight
     return np.stack([np.bincount(pixel, reflected[:, c], count) for c in range(3)], -1)
@@ -54,14 +58,7 @@ def lit_from_all_around(m: Reflectance, size: int = SIZE) -> Array:
 @functools.lru_cache(maxsize=2)
 def _pairs(size: int) -> tuple[Array, Array, Array, NDArray[np.intp], int]:
     """Local directions of every pixel and light above its horizon, light times cosine times solid angle, the pixel."""
-    axis = (2 * np.arange(size) + 1) / size - 1
-    x, y = (grid.ravel() for grid in np.meshgrid(axis, -axis))
-    inside = x * x + y * y < 1
-    x, y = x[inside], y[inside]
-    normal = np.stack([x, y, np.sqrt(1 - x * x - y * y)], -1)
-    tangent = np.stack([normal[:, 2], np.zeros_like(x), -x], -1)
-    tangent /= np.linalg.norm(tangent, axis=-1, keepdims=True)
-    frame = np.stack([tangent, np.cross(normal, tangent), normal], 1)
+    frame = sphere_frames(size)
     number = np.arange(LIGHTS) + 0.5
     z, phi = 1 - 2 * number / LIGHTS, number * math.pi * (3 - math.sqrt(5))
     world = np.stack([np.sqrt(1 - z * z) * np.cos(phi), np.sqrt(1 - z * z) * np.sin(phi), z], -1)
@@ -74,5 +71,5 @@ def _pairs(size: int) -> tuple[Array, Array, Array, NDArray[np.intp], int]:
         frame[pixel, :, 2].astype(np.float32),
         (light[which] * wi[:, 2:]).astype(np.float32),
         pixel,
-        len(normal),
+        len(frame),
     )
