@@ -137,7 +137,7 @@ def test_mitsuba_evaluates_what_was_written(tmp_path, m, kind, tolerance):
                 string.set("value", str(tmp_path / string.get("value")))
         node.set("version", "3.0.0")
         found = eval_in_mitsuba(mi, mi.load_string(ET.tostring(node, "unicode")))
-        by_dict = eval_in_mitsuba(mi, mi.load_dict(bsdf_dict(m, tmp_path / "m.bsdf")))
+        by_dict = eval_in_mitsuba(mi, mi.load_dict(bsdf_dict(m, tmp_path / "m.xml.bsdf")))
     finally:
         if before:
             mi.set_variant(before)
@@ -151,15 +151,25 @@ def test_mitsuba_evaluates_what_was_written(tmp_path, m, kind, tolerance):
 def test_pbrt_gets_a_spectral_measurement(tmp_path, red):
     done = brdf.export(red, tmp_path / "m.pbrt")
     assert (tmp_path / "m.pbrt").read_text().splitlines()[-1] == (
-        'MakeNamedMaterial "red" "string type" "measured" "string filename" "m.bsdf"'
+        'MakeNamedMaterial "red" "string type" "measured" "string filename" "m.pbrt.bsdf"'
     )
-    fields = io.rgl.read_tensors(tmp_path / "m.bsdf")
+    fields = io.rgl.read_tensors(tmp_path / "m.pbrt.bsdf")
     read_by_pbrt = "theta_i phi_i ndf sigma vndf luminance spectra wavelengths description jacobian"
     assert set(fields) == set(read_by_pbrt.split())
     assert fields["spectra"].shape[2] == len(fields["wavelengths"])
     assert fields["spectra"].min() >= 0
-    assert brdf.compare(red, io.read(tmp_path / "m.bsdf")).psnr_mean > 40
+    assert brdf.compare(red, io.read(tmp_path / "m.pbrt.bsdf")).psnr_mean > 40
     assert done.stands_for.wavelengths is not None
+
+
+@pytest.mark.parametrize("extension", [".xml", ".pbrt"])
+def test_a_measurement_of_the_same_name_is_left_alone(tmp_path, data, extension):
+    source = tmp_path / "m.bsdf"
+    source.write_bytes((data / "rgl" / "aurora_white_rgb.bsdf").read_bytes())
+    before = source.read_bytes()
+    done = brdf.export(io.read(source), tmp_path / f"m{extension}")
+    assert source.read_bytes() == before
+    assert [path.name for path in done.files] == [f"m{extension}", f"m{extension}.bsdf"]
 
 
 def test_spectra_of_primaries_have_their_colours():

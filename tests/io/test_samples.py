@@ -28,9 +28,12 @@ def test_sample_is_recognised_without_its_extension_and_read(name, tmp_path):
     assert io.registry.format_of(path).name == name
     members = io.members(path)
     m = io.read(path, members[0] if members else None)
+    io.write(m, tmp_path / "kept.safetensors")
+    kept = io.read(tmp_path / "kept.safetensors")
     values = m([[0, 0, 1.0], [0, 0.6, 0.8]], [[0.6, 0, 0.8], [0.1, -0.6, np.sqrt(0.63)]])
     assert np.isfinite(values).all()
     assert values.max() > 0
+    np.testing.assert_array_equal(kept([0, 0.6, 0.8], [0.6, 0, 0.8]), m([0, 0.6, 0.8], [0.6, 0, 0.8]))
 
 
 @pytest.mark.parametrize("kept", [1, 40, 0.5, 0.97])

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..errors import ParameterError
+from . import output
 
 if TYPE_CHECKING:
     from ..reflectance import Reflectance
@@ -29,10 +30,13 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 
 
 def load(spec: str) -> Reflectance:
-    """`brdf.load`, imported when it is needed."""
-    from ..loading import load
+    """`brdf.load`, imported when it is needed; measurements that are interpolated take seconds to read."""
+    from ..loading import is_file, load
 
-    return load(spec)
+    if not is_file(spec.rpartition("@")[0] or spec):
+        return load(spec)
+    with output.working(f"reading {spec}"):
+        return load(spec)
 
 
 def load_all(specs: Sequence[str]) -> list[Reflectance]:

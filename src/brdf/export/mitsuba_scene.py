@@ -40,7 +40,7 @@ def _rgb(value: Any) -> dict[str, Any]:
 
 def write(m: Reflectance, path: Path) -> Written:
     """A scene with the BSDF alone, to `include` or copy from. Raises ReflectanceError for what transmits or mirrors."""
-    beside = path.with_suffix(".bsdf")
+    beside = path.with_name(f"{path.name}.bsdf")  # never the measurement that it may have come from
     described = bsdf_dict(m, Path(beside.name))
     files: tuple[Path, ...] = (path,)
     stands_for = m

@@ -48,7 +48,7 @@ def spectral(m: Adaptive) -> Adaptive:
 
 def write(m: Reflectance, path: Path) -> Written:
     """A named material to `Include`. Raises ReflectanceError for what transmits or mirrors."""
-    beside = path.with_suffix(".bsdf")
+    beside = path.with_name(f"{path.name}.bsdf")  # never the measurement that it may have come from
     measured = spectral(m if isinstance(m, Adaptive) else bake_adaptive(m))
     io.write(measured, beside, "RGL")
     name = identifier(m)
