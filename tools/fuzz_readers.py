@@ -49,8 +49,9 @@ def fuzz(name: str, count: int, seconds: float) -> int:
     begun = time.perf_counter()
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / f"m{extension}"
-        path.write_bytes(data)
-        refused(name, path)  # what is imported and compiled once
+        for content_ in (data, data[: len(data) // 2], data[:-1]):  # what is imported once, for whole and broken files
+            path.write_bytes(content_)
+            refused(name, path)
         while done < count and time.perf_counter() - begun < seconds:
             path.write_bytes(mutated(data, rng))
             start = time.perf_counter()

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import container
-from .errors import CorruptFileError, ParameterError, ReflectanceError
+from .errors import BrdfError, CorruptFileError, ParameterError, ReflectanceError
 from .formula import engine, interpreted
 from .formula.backends import backend_of, is_foreign
 from .formula.vec import Vec
@@ -360,5 +360,5 @@ class Reflectance(ABC):
         own = {name: array for name, array in arrays.items() if not name.startswith(PREFIX)}
         try:
             return Reflectance.from_state(header, own)
-        except (KeyError, TypeError, ValueError, AttributeError, RecursionError) as error:
+        except (BrdfError, LookupError, TypeError, ValueError, AttributeError, RecursionError) as error:
             raise CorruptFileError(path, f"its header does not describe a reflectance ({error}).") from None

@@ -95,3 +95,11 @@ def test_random_bytes_never_give_a_traceback(tmp_path):
         with pytest.raises(FileError) as caught:
             io.read(path)
         assert "\n" not in str(caught.value)
+
+
+def test_own_file_with_a_choice_that_does_not_exist(tmp_path):
+    path = tmp_path / "m.safetensors"
+    io.write(brdf.models.Microfacet(masking="smith"), path)
+    path.write_bytes(path.read_bytes().replace(b"smith", b"skith"))
+    with pytest.raises(CorruptFileError, match=r"does not describe a reflectance \(unknown masking 'skith'"):
+        io.read(path)
