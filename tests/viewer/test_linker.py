@@ -170,6 +170,17 @@ def test_short_names_leave_alone_what_the_browser_has() -> None:
     assert ".length" in short
 
 
+def test_shaders_in_scripts_lose_their_comments() -> None:
+    text = """\
+const shader = /* glsl */ `
+uniform vec2 place;  // of the picture
+${tone + " // kept"}
+void main() { x = a - -b; }`, text = ` a  b `;
+"""
+    expected = 'const shader=`uniform vec2 place;${tone + " // kept"}void main(){x=a - -b;}`,text=` a  b `;\n'
+    assert compacted(text) == expected
+
+
 def test_style_sheets_keep_what_they_say() -> None:
     text = """\
 .a :focus, .b > i { content: "a: b ;"; color: red;  /* why */ }

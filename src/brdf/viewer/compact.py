@@ -15,6 +15,9 @@ PLAIN = re.compile(
 )
 REGULAR = re.compile(r"/(?:\\.|\[(?:\\.|[^\]\\\n])*\]|[^/\\\[\n])+/[a-z]*")
 
+SHADER = "/* glsl */"
+"""Before a template literal whose text is a shader without preprocessor lines."""
+
 BEFORE_VALUES = frozenset({"return", "typeof", "case", "of", "in", "do", "else", "void", "delete", "await", "yield"})
 """Words after which a slash begins a regular expression; after other words it divides."""
 
@@ -29,11 +32,14 @@ CONTINUING = frozenset("})],;=&|?:<>*%.") | {"=>"}
 def compacted(text: str) -> str:
     """The script in fewer characters. Line ends at which a statement may end are kept."""
     out: list[str] = []
-    last, gap = "", ""
+    last, gap, is_shader = "", "", False
     for kind, token in tokens(text):
         if kind in ("comment", "space"):
             gap = "\n" if "\n" in token or gap == "\n" else " "
+            is_shader |= token == SHADER
             continue
+        if is_shader:
+            token, is_shader = _compacted_shader(token), False
         if gap == "\n" and last and last not in OPEN_ENDED and token not in CONTINUING:
             out.append("\n")
         elif gap and (_joins(last[-1:], token[0])):
@@ -41,6 +47,17 @@ def compacted(text: str) -> str:
         out.append(token)
         last, gap = token, ""
     return "".join(out) + "\n"
+
+
+def _compacted_shader(template: str) -> str:
+    """A template literal of GLSL in fewer characters; its expressions stay as they are."""
+    parts = []
+    for is_text, part in template_parts(template):
+        if is_text:
+            plain = re.sub(r"\s+", " ", re.sub(r"//[^\n]*", "", part))
+            part = re.sub(r" ?([=*/<>?:,;(){}&|!`]) ?", r"\1", plain)
+        parts.append(part)
+    return "".join(parts)
 
 
 def compacted_style(text: str) -> str:

@@ -1,13 +1,13 @@
 // From the pictures of one or two materials to what the screen shows: backdrop, comparison, tone curve.
 
 /** Vertex shader of a triangle over the whole target. */
-export const COVER = `
+export const COVER = /* glsl */ `
 void main() {
     gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 1.0, 1.0);
 }`;
 
 /** A finished pass, into the mean of all: blending weighs it. */
-export const ADD = `
+export const ADD = /* glsl */ `
 precision highp float;
 precision highp sampler2D;
 uniform sampler2D pass;
@@ -25,7 +25,7 @@ export const BACKGROUNDS = { gradient: 0, environment: 1, plain: 2 };
  * @param {string} tone the stages' tone curves
  */
 export function presentation(tone) {
-    return `
+    return /* glsl */ `
 precision highp float;
 precision highp int;
 precision highp sampler2D;

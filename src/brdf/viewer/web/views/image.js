@@ -4,7 +4,7 @@ import { choice, toggle } from "../controls.js";
 import { encoded } from "../metrics.js";
 import { decades, DEGREE, fromHalf, luminances, Pairs, powers, short } from "./numbers.js";
 import { axes, Figure, rule, svg, text } from "./plot.js";
-import { choices, degrees, namesOf, remembered } from "./view.js";
+import { choices, chosen, degrees, namesOf } from "./view.js";
 
 /** Values along an axis, and pixels for each. */
 const [SIZE, PIXELS] = [144, 3];
@@ -29,18 +29,16 @@ class ImageSlice {
     constructor(container, context) {
         this.context = context;
         this.container = container;
-        this.options = remembered(context, "image", { azimuth: 90, root: true, shown: "colour" });
-        const { options } = this;
-        const change = (/** @type {import("./view.js").Options} */ some) => {
-            Object.assign(options, some);
-            this.update();
-        };
+        const first = { azimuth: 90, root: true, shown: "colour" };
+        const choosing = chosen(context, "image", first, () => this.update());
+        const { options, change } = choosing;
+        this.options = options;
         this.refresh = choices(container, [
             choice({
                 label: "Show", options: () => [["colour", "Colour"], ["luminance", "Luminance"]],
                 read: () => options.shown, write: (shown) => change({ shown }),
             }),
-            degrees({ options, change }, "azimuth", "Azimuth φd", "Azimuth of the light about the half vector", 180),
+            degrees(choosing, "azimuth", "Azimuth φd", "Azimuth of the light about the half vector", 180),
             toggle({ label: "√ θh", read: () => options.root, write: (root) => change({ root }) }),
         ]);
         /** @type {Slice[]} */

@@ -3,7 +3,7 @@
 import { element } from "../element.js";
 import { decades, DEGREE, luminances, Pairs, short, spherical } from "./numbers.js";
 import { legend, PAIR } from "./plot.js";
-import { choices, lightAngle, logarithmic, namesOf, remembered } from "./view.js";
+import { choices, chosen, lightAngle, logarithmic, namesOf } from "./view.js";
 
 /** Nodes over the zenith on either side of the mirror direction, and over the azimuth on either side of it. */
 const [ZENITHS, AZIMUTHS] = [22, 36];
@@ -23,14 +23,10 @@ class Solid {
      */
     constructor(container, context) {
         this.context = context;
-        this.options = remembered(context, "lobe", { log: true, angle: 45, azimuth: -60, elevation: 25 });
-        const { options } = this;
-        const change = (/** @type {import("./view.js").Options} */ some) => {
-            Object.assign(options, some);
-            this.update();
-        };
-        const chosen = { options, change };
-        this.refresh = choices(container, [lightAngle(chosen), logarithmic(chosen)]);
+        const first = { log: true, angle: 45, azimuth: -60, elevation: 25 };
+        const choosing = chosen(context, "lobe", first, () => this.update());
+        this.options = choosing.options;
+        this.refresh = choices(container, [lightAngle(choosing), logarithmic(choosing)]);
         this.canvas = element("canvas", { role: "img", tabindex: 0 });
         this.legend = legend();
         container.append(this.canvas, this.legend.element);

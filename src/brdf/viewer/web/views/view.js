@@ -24,16 +24,23 @@ const LOWEST_LIGHT = 85;
 const kept = new WeakMap();
 
 /**
- * Choices of a view, the same ones when it is shown again.
+ * Choices of a view, the same ones when it is shown again, and what changes them.
  * @param {Context} context
  * @param {string} id
- * @param {Options} options as they are at first
+ * @param {Options} first as they are at first
+ * @param {() => void} update
+ * @returns {Chosen}
  */
-export function remembered({ evaluator }, id, options) {
+export function chosen({ evaluator }, id, first, update) {
     const all = kept.get(evaluator) ?? new Map();
     kept.set(evaluator, all);
-    if (!all.has(id)) all.set(id, { ...options });
-    return all.get(id);
+    if (!all.has(id)) all.set(id, { ...first });
+    const options = all.get(id);
+    const change = (/** @type {Options} */ some) => {
+        Object.assign(options, some);
+        update();
+    };
+    return { options, change };
 }
 
 /**
@@ -48,14 +55,14 @@ export function choices(container, controls) {
     return () => controls.forEach((control) => control.refresh());
 }
 
-/** @param {Chosen} chosen */
+/** @param {Chosen} choosing */
 export function logarithmic({ options, change }) {
     return toggle({ label: "Logarithmic", read: () => options.log, write: (log) => change({ log }) });
 }
 
 /**
  * Whole degrees.
- * @param {Chosen} chosen
+ * @param {Chosen} choosing
  * @param {string} key of the options
  * @param {string} label
  * @param {string} doc
@@ -65,9 +72,9 @@ export function degrees({ options, change }, key, label, doc, high = LOWEST_LIGH
     return slider({ label, doc, scale: { low: 0, high, unit: "°" }, read: () => options[key], write });
 }
 
-/** @param {Chosen} chosen */
-export function lightAngle(chosen) {
-    return degrees(chosen, "angle", "Light", "Angle of the light from the normal");
+/** @param {Chosen} choosing */
+export function lightAngle(choosing) {
+    return degrees(choosing, "angle", "Light", "Angle of the light from the normal");
 }
 
 /**
@@ -114,7 +121,7 @@ export function scaled(series, log, most) {
  * @property {string} id
  * @property {string} title
  * @property {Options} [options] as they are at first
- * @property {(chosen: Chosen) => Control[]} [controls]
+ * @property {(choosing: Chosen) => Control[]} [controls]
  * @property {(context: Context, materials: Material[], names: string[], options: Options) => Series[]} series
  * @property {(options: Options) => string} what the curves are
  * @property {(series: Series) => string} told of each curve, in numbers
@@ -124,14 +131,11 @@ export function scaled(series, log, most) {
 /** @param {Kind} kind */
 export function curveView(kind) {
     const create = (/** @type {HTMLElement} */ container, /** @type {Context} */ context) => {
-        const options = remembered(context, kind.id, kind.options ?? {});
-        const change = (/** @type {Options} */ some) => {
-            Object.assign(options, some);
-            update();
-        };
+        const choosing = chosen(context, kind.id, kind.options ?? {}, () => update());
+        const { options } = choosing;
         /** @type {Series[]} */
         let series = [];
-        const refresh = choices(container, kind.controls?.({ options, change }) ?? []);
+        const refresh = choices(container, kind.controls?.(choosing) ?? []);
         const figure = new Figure(container, (width) => kind.drawn(width, series, options));
         const update = () => {
             const materials = context.materials();
