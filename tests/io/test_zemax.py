@@ -132,3 +132,13 @@ def test_sizes_are_checked_before_memory_is_taken(tmp_path):
     (tmp_path / "m.bsdf").write_text(head + lists + "TristimulusX\nDataBegin\nTIS 1\n1\n")
     with pytest.raises(CorruptFileError, match="claims 3 x 2000 x 2000 x 2000 x 2000 values"):
         io.read(tmp_path / "m.bsdf")
+
+
+def test_rotations_a_hair_apart_make_no_huge_table(tmp_path):
+    text = changed("PlaneSymmetrical", "ASymmetrical4D").replace(
+        "SampleRotation\t1\n0\n", "SampleRotation\t2\n0 1e-4\n"
+    )
+    head, _, body = text.partition("DataBegin\n")
+    blocks = body.replace("DataEnd\n", "")
+    (tmp_path / "m.bsdf").write_text(f"{head}DataBegin\n{blocks}{blocks}DataEnd\n")
+    assert io.read(tmp_path / "m.bsdf").layout.shape[0] == 8

@@ -107,12 +107,14 @@ def _around(rotations: Array, values: NDArray[np.float32]) -> NDArray[np.float32
     if rotations[-1] - rotations[0] > 2 * math.pi - 1e-6:
         rotations, values = rotations[:-1], values[:-1]
     step = float(np.diff(rotations, append=rotations[0] + 2 * math.pi).min())
-    count = max(2, round(2 * math.pi / step))
+    count = min(max(2, round(2 * math.pi / step)), 4 * len(rotations))  # a tiny step makes no table of its own size
     wanted = -np.arange(count) * (2 * math.pi / count) % (2 * math.pi)  # turning the sample turns the light back
     turned = np.append(rotations, rotations[0] + 2 * math.pi)
     index = np.append(np.arange(len(rotations)), 0)
-    place = np.interp(wanted, turned, np.arange(len(turned)))
+    place = np.interp(wanted, turned, np.arange(len(turned))).round(9)
     below = np.minimum(place.astype(int), len(turned) - 2)
+    if np.all(place == place.round()):  # the rotations of the file themselves, and no copies to mix
+        return np.asarray(values[index[place.astype(int)]], np.float32)
     share = (place - below).astype(np.float32).reshape(-1, *[1] * (values.ndim - 1))
     return np.asarray(values[index[below]] * (1 - share) + values[index[below + 1]] * share, np.float32)
 

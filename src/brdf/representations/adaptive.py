@@ -219,17 +219,17 @@ def _grid(
 
 def _warp(name: str, table: NDArray[np.float32]) -> tuple[NDArray[np.float32], ...]:
     """Density with unit sum over the patches, its sums along x, and the sums of those along y. Raises ValueError."""
-    density = table.astype(np.float64).clip(0)
-    density /= density.max(axis=(2, 3), keepdims=True).clip(np.finfo(np.float32).tiny)
-    conditional = np.zeros_like(density)
-    np.cumsum(0.5 * (density[..., 1:] + density[..., :-1]), axis=-1, out=conditional[..., 1:])
-    rows = conditional[..., -1]
-    marginal = np.zeros((*density.shape[:2], 1, density.shape[2]))
-    np.cumsum(0.5 * (rows[..., 1:] + rows[..., :-1]), axis=-1, out=marginal[..., 0, 1:])
-    total = marginal[..., -1:]
-    if not np.all(total > 0):
-        raise ValueError(f"field {name!r} is zero everywhere for one of the incident directions")
-    return tuple(_frozen((sums / total).astype(np.float32)) for sums in (density, conditional, marginal))
+    density, conditional = np.empty_like(table), np.zeros_like(table)
+    marginal = np.zeros((*table.shape[:2], 1, table.shape[2]), np.float32)
+    for at in np.ndindex(table.shape[:2]):  # one at a time: in double precision all would need several times the file
+        cells = table[at].astype(np.float64).clip(0)
+        cells /= max(cells.max(), np.finfo(np.float32).tiny)
+        sums = np.cumsum(0.5 * (cells[:, 1:] + cells[:, :-1]), axis=1)
+        rows = np.cumsum(0.5 * (sums[1:, -1] + sums[:-1, -1]))
+        if not rows[-1] > 0:
+            raise ValueError(f"field {name!r} is zero everywhere for one of the incident directions")
+        density[at], conditional[at][:, 1:], marginal[at][0, 1:] = cells / rows[-1], sums / rows[-1], rows / rows[-1]
+    return _frozen(density), _frozen(conditional), _frozen(marginal)
 
 
 def _frozen(array: NDArray[Any]) -> NDArray[Any]:
