@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from ..color import luminance
 from ..geometry.directions import from_spherical
+from ..geometry.sampling import CosineSampler, GGXSampler, MixtureSampler
 from ..reflectance import Reflectance
 
 Floats = NDArray[np.float64]
@@ -15,7 +16,9 @@ WIDTHS = np.geomspace(0.01, 1, 24)
 """Widths that are tried."""
 VIEWS = np.radians([5.0, 35.0, 60.0, 78.0])
 """Angles between normal and viewer."""
-DRAWN = 128
+PROPOSED = np.geomspace(0.01, 1, 8)
+"""Widths of the lobes that directions are drawn by."""
+DRAWN = 512
 """Directions a view."""
 LEAST_SHARE = 0.05
 """Of either lobe: what the other one misses still comes to light."""
@@ -24,18 +27,26 @@ LEAST_SHARE = 0.05
 def stand_in(m: Reflectance) -> tuple[float, float]:
     """Width and share of a GGX lobe beside a diffuse one that are likeliest to have drawn the light `m` reflects.
 
-    Directions are drawn by f cos at a few views. Whatever the answer, pictures are right: it decides their noise alone.
+    Directions are drawn by lobes of many widths at a few views, and weighed by f cos. Whatever the answer, pictures are
+    right: it decides their noise alone.
     """
     n = np.arange(DRAWN * len(VIEWS))
     u = np.stack([(0.5 + n * 0.7548776662466927) % 1, (0.5 + n * 0.5698402909980532) % 1], -1)  # R2 sequence
     wo = from_spherical(np.repeat(VIEWS, DRAWN), 2 * np.pi * (n * 0.6180339887498949 % 1))
     uv = np.stack([n * 0.8191725133961645 % 1, n * 0.6710436067037893 % 1], -1)
-    drawn = m.sample(wo, u, uv) if m.varies else m.sample(wo, u)
-    weight = np.nan_to_num(luminance(np.asarray(drawn.weight, np.float64)), posinf=0.0)
-    usable = (weight > 0) & (np.abs(drawn.wi[:, 2]) > 1e-4)
+    proposal = MixtureSampler([CosineSampler(), *(GGXSampler(a, a) for a in PROPOSED)], [1.0] * (1 + len(PROPOSED)))
+    wi, _ = proposal.sample(wo, u)
+    density = proposal.pdf(wi, wo)
+    if m.transmits:  # as often below as above
+        wi[n % 2 > 0, 2] *= -1
+        density = density / 2
+    value = np.asarray(m(wi, wo, uv) if m.varies else m(wi, wo), np.float64)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        weight = np.nan_to_num(luminance(value) * np.abs(wi[:, 2]) / density, nan=0.0, posinf=0.0)
+    usable = (weight > 0) & (np.abs(wi[:, 2]) > 1e-4)
     if not usable.any():
         return 1.0, LEAST_SHARE
-    wi, wo, weight = (np.asarray(a[usable], np.float64) for a in (drawn.wi, wo, weight))
+    wi, wo, weight = (np.asarray(a[usable], np.float64) for a in (wi, wo, weight))
     matte = np.abs(wi[:, 2]) / np.pi * (0.5 if m.transmits else 1.0)
     best = (-np.inf, 1.0, LEAST_SHARE)
     for alpha in WIDTHS:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..reflectance import Reflectance
+from ..render.stand_in import stand_in
 from ..representations.tables.table import Table
 from ..shaders import shader_of, stages
 from .blob import Blob
@@ -19,6 +20,7 @@ def described(m: Reflectance, blob: Blob) -> dict[str, Any]:
     """
     shown, note = (m, "") if m.has_formula else baked(m)
     shader = shader_of(shown)
+    alpha, share = stand_in(shown)
     about: dict[str, Any] = {
         "shader": shader.description,
         "text": stages.material(shader),
@@ -27,7 +29,7 @@ def described(m: Reflectance, blob: Blob) -> dict[str, Any]:
         "isotropic": m.isotropic,
         "kind": type(m).__name__,
         "note": note or _warning(m),
-        "lobe": {"alpha": 0.25, "share": 0.5},
+        "lobe": {"alpha": round(alpha, 4), "share": round(share, 4)},
     }
     if isinstance(shown, Table) and not shown.measured.all():
         about["mask"] = blob.add(np.packbits(shown.measured, bitorder="little").tobytes())
@@ -40,10 +42,10 @@ def baked(m: Reflectance) -> tuple[Reflectance, str]:
     from ..conversion import bake
     from ..metrics import psnr
 
-    stand_in = bake(m, "slice-stack", **({} if m.isotropic else {"anisotropic": True}))
-    kilobytes = stand_in.nbytes / 1024
-    note = f"Shown by its {kilobytes:,.0f} KB slice stack, PSNR {psnr(m, stand_in):.1f} dB: it has no formula itself."
-    return stand_in.named(m.name, m.source), note
+    small = bake(m, "slice-stack", **({} if m.isotropic else {"anisotropic": True}))
+    kilobytes = small.nbytes / 1024
+    note = f"Shown by its {kilobytes:,.0f} KB slice stack, PSNR {psnr(m, small):.1f} dB: it has no formula itself."
+    return small.named(m.name, m.source), note
 
 
 def _warning(m: Reflectance) -> str:

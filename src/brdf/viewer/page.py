@@ -37,7 +37,7 @@ def page(shown: Sequence[Reflectance], view: View | None = None) -> str:
 
 def document(title: str, image: str, data: bytes | None = None) -> str:
     """The page's HTML. `image`: address of the picture. `data`: the container, None where the page asks its server."""
-    boot, code = scripts()
+    boot, code = scripts(small=data is not None)
     digests = [base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in (boot, code)]
     allowed = {"scripts": " ".join(f"'sha256-{digest}'" for digest in digests)}
     return Template(sources()["page.html"]).substitute(
@@ -55,9 +55,9 @@ def document(title: str, image: str, data: bytes | None = None) -> str:
 
 
 @cache
-def scripts() -> tuple[str, str]:
-    """The script that unpacks, and the one that is unpacked."""
-    return linked("boot.js"), linked("main.js")
+def scripts(small: bool) -> tuple[str, str]:
+    """The script that unpacks, and the one that is unpacked; `small` in files; what is served does not wait."""
+    return linked("boot.js", small=small), linked("main.js", small=small)
 
 
 def packed(data: bytes) -> str:

@@ -32,7 +32,7 @@ def _widget_class() -> Any:
     class Viewer(anywidget.AnyWidget):
         """Turns, lights and compares reflectances within a notebook."""
 
-        _esm = linked("widget.js")
+        _esm = linked("widget.js", small=False)
         _css = compacted_style(sources()["style.css"])
         payload = traitlets.Bytes(b"").tag(sync=True)
         state = traitlets.Dict().tag(sync=True)
