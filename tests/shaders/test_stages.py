@@ -25,7 +25,7 @@ def test_no_parameter_of_a_model_is_called_like_something_of_the_stages(gl: GLCa
 def test_the_stages_compile_around_every_kind(name: str, gl: GLCard) -> None:
     shader = shader_of((MODELS | TABLES)[name]())
     evaluation = stages.evaluation().replace(stages.MATERIAL, stages.material(shader))
-    sources = [stages.shading(shader, shape) for shape in stages.SHAPES] + [(stages.vertex("screen"), evaluation)]
+    sources = [stages.shading(shader, shape) for shape in stages.SURFACES] + [(stages.vertex("screen"), evaluation)]
     with gl.context:
         for header, (vertex, fragment) in product(HEADERS.values(), sources):
             gl.context.program(header + vertex, fragment_shader=header + fragment).release()

@@ -20,6 +20,13 @@ HARDWARE_FILTER = "#define HARDWARE_FILTER\n"
 SHAPES = ("mesh", "sphere")
 """What there are stages for: triangles, and the exact unit sphere."""
 
+SURFACES = {
+    "mesh": ("face", "surface.mesh", "shadow.mesh"),
+    "seen": ("face", "ray", "surface.seen", "shadow.mesh"),
+    "sphere": ("ray", "surface.sphere", "shadow.sphere"),
+}
+"""The parts that find the point to shade. "seen": triangles whose numbers `faces` has left in a picture before."""
+
 
 @cache
 def part(name: str) -> str:
@@ -32,14 +39,14 @@ def _joined(*names: str) -> str:
 
 
 def vertex(shape: str) -> str:
-    """The vertex shader of a shape: `mesh` takes 3 vertices a face, `sphere` and `screen` 3 in all."""
+    """The vertex shader of a shape: `mesh` takes 3 vertices a face, `sphere`, `seen` and `screen` 3 in all."""
     mesh = ["precision", "camera", "texel", "mesh.vert", "main.vert"]
     return _joined(*mesh) if shape == "mesh" else _joined("sphere.vert")
 
 
 def fragment(shape: str) -> str:
-    """The fragment shader that shades a shape; `MATERIAL` stands for the material."""
-    surface = ["point", "angle", f"surface.{shape}", f"shadow.{shape}"]
+    """The fragment shader that shades a shape of `SURFACES`; `MATERIAL` stands for the material."""
+    surface = ["point", "angle", *SURFACES[shape]]
     light = ["light", "lights", "points", "environment"]
     return _joined("precision", "material", "camera", "texel", *surface, *light, "main.frag")
 
@@ -52,6 +59,11 @@ def evaluation() -> str:
 def depth() -> str:
     """The fragment shader that leaves nothing but depth."""
     return _joined("precision", "depth.frag")
+
+
+def faces() -> str:
+    """The fragment shader that leaves the numbers of faces, and depth."""
+    return _joined("precision", "face.frag")
 
 
 def sum_of_samples() -> str:
@@ -76,7 +88,7 @@ def per_vertex(brdf: Shader, picture: Shader) -> tuple[str, str]:
     """Vertex and fragment shader that draw a mesh whose `brdf` is evaluated at corners alone, where it says which
     `picture` a place shows."""
     vertex = ["precision", "material", "camera", "texel", "mesh.vert", "light", "per_vertex.vert"]
-    surface = ["camera", "texel", "point", "angle", "surface.mesh", "shadow.mesh"]
+    surface = ["camera", "texel", "point", "angle", *SURFACES["mesh"]]
     fragment = ["precision", "material", *surface, "light", "lights", "per_vertex.frag"]
     return (_joined(*vertex).replace(MATERIAL, material(brdf)), _joined(*fragment).replace(MATERIAL, material(picture)))
 

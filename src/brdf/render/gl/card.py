@@ -128,9 +128,9 @@ class Card:
             texture.repeat_z = False
         return texture
 
-    def target(self, width: int, height: int, depth: bool) -> Target:
-        """Something to draw radiance into."""
-        texture = self._texture((width, height), 4, None, "f4")
+    def target(self, width: int, height: int, depth: bool, channels: int = 4) -> Target:
+        """Something to draw float32 numbers into."""
+        texture = self._texture((width, height), channels, None, "f4")
         below = self._own(self.context.depth_renderbuffer((width, height))) if depth else None
         return Target(texture, self._own(self.context.framebuffer([texture], below)))
 

@@ -41,4 +41,4 @@ def draw_per_vertex(task: Task, progress: Report | bool | None = None) -> tuple[
     # The factor's name keeps the reflectance's parameters apart from those of the pictures.
     brdf = shader_of(Scaled(shading_map.children["brdf"], shading_map.sigma), function=FUNCTION)
     picture = shader_of(shading_map.replaced(brdf=HandedOn(), sigma=1.0, technique="shading"), function=FUNCTION)
-    return drawn(task, [Stages(*stages.per_vertex(brdf, picture), (brdf, picture))], progress)
+    return drawn(task, [Stages(*stages.per_vertex(brdf, picture), (brdf, picture), once_a_pixel=False)], progress)

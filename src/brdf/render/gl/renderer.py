@@ -15,7 +15,7 @@ from ..background import offsets
 from ..progress import Progress, Report
 from ..stand_in import stand_in
 from ..task import Task, seen_rectangle
-from .card import Card, card
+from .card import Card, Program, card
 from .uniforms import MOST_LIGHTS, SceneOnCard, set_material
 
 Floats = NDArray[np.float32]
@@ -33,6 +33,8 @@ class Stages:
     vertex: str
     fragment: str
     materials: tuple[Shader, ...]
+    once_a_pixel: bool = True
+    """Whether they take 3 vertices in all, rather than 3 a face."""
 
 
 def draw(task: Task, progress: Report | bool | None = None) -> tuple[Floats, Floats]:
@@ -65,7 +67,7 @@ def stages_of(task: Task) -> list[Stages]:
                 f"{m.name or type(m).__name__} mirrors, which has no values to draw; use the backend 'cpu'"
             )
     shaders = [shader_of(m, function=FUNCTION) for m in task.reflectances]
-    shape = "sphere" if task.scene.mesh.is_unit_sphere else "mesh"
+    shape = "sphere" if task.scene.mesh.is_unit_sphere else "seen"
     return [Stages(*stages.shading(shader, shape), (shader,)) for shader in shaders]
 
 
@@ -78,10 +80,11 @@ class Renderer:
     def __init__(self, opened: Card, task: Task, shading: Sequence[Stages], filtered: bool = False) -> None:
         self._card, self._task = opened, task
         mesh = task.scene.mesh
-        self._vertices = 3 if mesh.is_unit_sphere else 3 * len(mesh.faces)
+        self._mesh_vertices = 0 if mesh.is_unit_sphere else 3 * len(mesh.faces)
+        self._vertices = 3 if all(stage.once_a_pixel for stage in shading) else self._mesh_vertices
         self._passes = _passes(task.rounds)
         self._sums = 0
-        self._sample = opened.target(task.width, task.height, depth=True)
+        self._sample = opened.target(task.width, task.height, depth=self._vertices > 3)
         self._sum = opened.target(task.width, task.height, depth=False)
         scene = SceneOnCard(opened, task, self._passes)
         self._materials = []
@@ -93,9 +96,11 @@ class Renderer:
             if task.scene.environment is not None:
                 program["lobe_alpha"], program["lobe_share"] = stand_in(m)
             self._materials.append(program)
-        self._depth = None
-        if not mesh.is_unit_sphere:
-            self._depth = scene.apply(opened.program(stages.vertex("mesh"), stages.depth()))
+        self._first, self._seen = self._first_pass(scene), self._sample
+        if self._mesh_vertices and self._vertices == 3:
+            self._seen = opened.target(task.width, task.height, depth=True, channels=1)
+            for program in self._materials:
+                program.bind("seen_faces", self._seen.texture)
         self._add = opened.program(stages.vertex("screen"), stages.sum_of_samples())
         self._add.bind("drawn", self._sample.texture)
         self._parts = _parts(task)
@@ -105,10 +110,20 @@ class Renderer:
         """Passes in all."""
         return self._task.per_pixel * self._passes
 
+    def _first_pass(self, scene: SceneOnCard) -> Program | None:
+        """What draws the triangles before anything is shaded: so nothing hidden is."""
+        if not self._mesh_vertices:
+            return None
+        fragment = stages.faces() if self._vertices == 3 else stages.depth()
+        return scene.apply(self._card.program(stages.vertex("mesh"), fragment))
+
     def draw_sample(self, place: Sequence[float] | Floats) -> Iterator[int]:
         """Draw one ray a pixel, through a `place` in it, pass by pass."""
-        for program in [*self._materials, *([self._depth] if self._depth else [])]:
+        for program in [*self._materials, *([self._first] if self._first else [])]:
             program["sample_place"] = place
+        self._sample.framebuffer.use()
+        self._sample.framebuffer.clear()
+        self._draw_triangles()
         for number in range(self._passes):
             for program in self._materials:
                 program["environment_pass"] = self._sums
@@ -117,16 +132,24 @@ class Renderer:
             self._draw_pass()
             yield self._sums
 
+    def _draw_triangles(self) -> None:
+        """Leave their depth and, where shading is once a pixel, the number of the nearest."""
+        gl, framebuffer = self._card.context, self._seen.framebuffer
+        gl.depth_func = "<="
+        if self._first:
+            gl.enable_only(gl.DEPTH_TEST)
+            framebuffer.use()
+            if self._vertices == 3:
+                framebuffer.clear()
+            else:
+                framebuffer.color_mask = (False,) * 4
+            self._first.draw(self._mesh_vertices)
+            framebuffer.color_mask = (True,) * 4
+
     def _draw_pass(self) -> None:
         gl, framebuffer = self._card.context, self._sample.framebuffer
         framebuffer.use()
-        framebuffer.clear()
-        gl.enable_only(gl.DEPTH_TEST if self._depth else gl.NOTHING)
-        gl.depth_func = "<="
-        if self._depth:  # first, so that nothing hidden is shaded
-            framebuffer.color_mask = (False,) * 4
-            self._depth.draw(self._vertices)
-            framebuffer.color_mask = (True,) * 4
+        gl.enable_only(gl.DEPTH_TEST if self._vertices > 3 else gl.NOTHING)
         for program, part in zip(self._materials, self._parts, strict=True):
             framebuffer.scissor = part
             if part[2] > 0 and part[3] > 0:

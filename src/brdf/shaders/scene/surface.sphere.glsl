@@ -3,11 +3,8 @@
 const float PI = 3.14159265;
 
 Point surface() {
-    vec2 pixel = vec2(gl_FragCoord.x - 0.5, picture_size.y - gl_FragCoord.y - 0.5) + sample_place;
-    vec2 place = (2.0 * pixel - picture_size) / picture_size.y * vec2(camera_half, -camera_half);
-    vec3 across = camera_frame * vec3(place, 0.0);
-    vec3 origin = camera_position + (camera_parallel ? across : vec3(0.0));
-    vec3 ray = camera_parallel ? -camera_frame[2] : normalize(across - camera_frame[2]);
+    vec3 origin, ray;
+    pixel_ray(origin, ray);
     float nearest = dot(origin, ray);
     vec3 offset = origin - nearest * ray;  // its length decides; the usual discriminant would cancel far away
     float closest = dot(offset, offset), reach = -nearest - sqrt(max(1.0 - closest, 0.0));
