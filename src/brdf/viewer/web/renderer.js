@@ -65,6 +65,10 @@ export class Renderer {
     constructor(gl, stages) {
         this.gl = gl;
         this.stages = stages;
+        const plain = (/** @type {import("./payload.js").Stage} */ { vertex, fragment }) =>
+            ({ vertex, fragment: `#define LIGHTS_ALONE\n${fragment}` });
+        /** The same without an environment: smaller and faster programs. */
+        this.plain = { sphere: plain(stages.sphere), mesh: plain(stages.mesh) };
     }
 
     /** Forgets what a lost context held; what is needed is made anew. */
@@ -94,8 +98,9 @@ export class Renderer {
     }
 
     /** @param {Scene} scene */
-    stageOf(scene) {
-        return scene.mesh.exact ? this.stages.sphere : this.stages.mesh;
+    stageOf({ mesh, environment }) {
+        const shape = mesh.exact ? "sphere" : "mesh";
+        return environment ? this.stages[shape] : this.plain[shape];
     }
 
     /**
