@@ -165,3 +165,10 @@ def grouped(numbers: Array, all_components: list[Component]) -> dict[str, Any]:
     for number, component in zip(numbers, all_components, strict=True):
         found.setdefault(component.parameter, []).append(min(max(float(number), component.low), component.high))
     return {name: value[0] if len(value) == 1 else tuple(value) for name, value in found.items()}
+
+
+def with_defaults(m: Reflectance) -> Reflectance:
+    """The same reflectance with the values that its parameters have where nothing is given."""
+    declared = _declared(m)
+    values = {n: v if declared[n].default is None else declared[n].default for n, v in m.values.items()}
+    return with_values(m, values)
