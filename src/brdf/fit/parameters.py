@@ -75,9 +75,10 @@ class Component:
         low, high = self.bounds
         middle = self.to_coordinate(self.default)
         spread = math.log(REACH) if self.is_log else max(1.0, abs(self.default))
-        if self.is_log and self.low > 0 and math.isfinite(self.high):
-            spread = high - low
-        low, high = max(low, middle - spread), min(high, middle + spread)
+        if self.is_log and math.isfinite(self.high):  # narrow lobes are far from the default
+            low, high = low if self.low > 0 else max(low, middle - spread), high
+        else:
+            low, high = max(low, middle - spread), min(high, middle + spread)
         margin = 0.02 * (high - low)  # a search that begins at a bound may never leave it
         return low + margin, high - margin
 

@@ -32,7 +32,9 @@ def panel(m: Reflectance, label: str, size: int = SIZE) -> Panel:
 
 def write_page(fits: Sequence[Mapping[str, Any]], folder: Path, data: Mapping[str, str]) -> Path:
     """`index.html` in the folder of the fits; `data`: what each fit's data are to be loaded by, by their name."""
-    report = Report("fits", "Fits", f"{len(fits)} fits by brdf fit")
+    report = Report(
+        "fits", "Fits", f"{len(fits)} fits by brdf fit", {"metric": fits[0]["metric"], "starts": fits[0]["starts"]}
+    )
     report.section("Errors", "The distance between fit and data in each metric; of a material the least first.")
     metrics = list(dict.fromkeys(name for one in fits for name in one["errors"]))
     ranked = sorted(fits, key=lambda one: (one["data"], one["cost"]))
