@@ -51,9 +51,15 @@ class Solid {
             options.elevation = Math.min(90, Math.max(-5, options.elevation + down));
             this.draw();
         };
-        canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
+        let [x, y] = [0, 0];  // where the hand was: not every browser says how far a finger moved
+        canvas.addEventListener("pointerdown", (event) => {
+            canvas.setPointerCapture(event.pointerId);
+            [x, y] = [event.clientX, event.clientY];
+        });
         canvas.addEventListener("pointermove", (event) => {
-            if (event.buttons & 1) turn(event.movementX * TURNED, event.movementY * TURNED);
+            if (!(event.buttons & 1)) return;
+            turn((event.clientX - x) * TURNED, (event.clientY - y) * TURNED);
+            [x, y] = [event.clientX, event.clientY];
         });
         canvas.addEventListener("keydown", (event) => {
             const step = { ArrowLeft: [-5, 0], ArrowRight: [5, 0], ArrowUp: [0, -5], ArrowDown: [0, 5] }[event.key];
