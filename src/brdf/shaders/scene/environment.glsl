@@ -79,13 +79,15 @@ vec3 from_environment(Point point) {
     for (int s = 0; s < environment_samples; s++) {
         ivec2 chosen = ivec2(sequence(first + uint(s), 2u * seed).yx * vec2(textureSize(environment_directions, 0)));
         vec3 world = environment_direction(texelFetch(environment_directions, chosen, 0).xy);
-        vec4 light = environment(world);
         vec3 wi = normalize(world * point.frame);
-        radiance += weighed(point, wi, world, light, light.a + lobe_density(wi, point.wo));
-        wi = lobe_direction(sequence(first + uint(s), 2u * seed + 1u), point.wo);
-        world = point.frame * wi;
-        light = environment(world);
-        radiance += weighed(point, wi, world, light, light.a + lobe_density(wi, point.wo));
+        for (int kind = 0; kind < 2; kind++) {  // a loop, for some drivers never finish with the same text twice
+            if (kind == 1) {
+                wi = lobe_direction(sequence(first + uint(s), 2u * seed + 1u), point.wo);
+                world = point.frame * wi;
+            }
+            vec4 light = environment(world);
+            radiance += weighed(point, wi, world, light, light.a + lobe_density(wi, point.wo));
+        }
     }
     return radiance / float(max(environment_samples, 1));
 }

@@ -1,5 +1,5 @@
-// What a material reflects towards the camera: linear radiance, and 1 where the shape covers the sample. With LIGHTS_ALONE
-// defined there is no light from all around, and a smaller program.
+// What a material reflects towards the camera: linear radiance, and 1 where the shape covers the sample. With
+// LIGHTS_ALONE defined there is no light from all around, and a smaller program.
 out vec4 colour;
 
 void main() {
