@@ -1,4 +1,4 @@
-"""The page as it is seen: sizes from a phone to a desk, dark and light, contrast, a lost context, no WebGL2."""
+"""The page as it is seen: sizes from a phone to a desk, dark and light, contrast, no WebGL2."""
 
 from __future__ import annotations
 
@@ -104,6 +104,23 @@ def test_nothing_is_cut_off_at_any_size(viewer: Opened, size: Any) -> None:
         viewer.settle()
 
 
+def test_a_plot_on_a_phone_moves_the_picture_and_its_light_together(viewer: Opened) -> None:
+    viewer.home()
+    viewer.page.set_viewport_size(PHONE)
+    viewer.set(compare="first", view="polar")
+    viewer.settle()
+    before = viewer.page.evaluate("viewer.panes[0].free.height")
+    assert before < 0.8 * PHONE["height"]
+    brightness = viewer.picture().astype(float).sum(-1)
+    row, column = (float(places.mean()) for places in np.nonzero(brightness > brightness.max() - 3))
+    box = viewer.page.get_by_role("button", name="Light 1: drag").bounding_box()
+    assert box is not None
+    assert box["x"] + box["width"] / 2 == pytest.approx(column, abs=8)
+    assert box["y"] + box["height"] / 2 == pytest.approx(row, abs=8)
+    viewer.home()
+    viewer.page.get_by_role("button", name="Panel (p)").click()  # on a phone the plot took its place
+
+
 def test_everything_has_a_name_and_the_focus_is_seen(viewer: Opened) -> None:
     assert viewer.page.evaluate(NAMELESS) == []
     viewer.canvas.focus()
@@ -132,25 +149,6 @@ def test_contrast_is_aa_and_the_theme_follows_the_system_and_the_switch(viewer: 
     other = {"dark": "light", "light": "dark"}[scheme]
     assert viewer.page.evaluate("viewer.theme()") == other
     assert [(text, round(ratio, 2)) for text, ratio in viewer.page.evaluate(CONTRASTS) if ratio < 4.5] == []
-
-
-def test_a_lost_context_comes_back_with_the_same_picture(browser: Browser, file: Path) -> None:
-    with opened(browser) as page:
-        page.open(address(file))
-        before = page.picture()
-        page.page.evaluate(
-            """async () => {
-                const lost = viewer.gl.getExtension("WEBGL_lose_context");
-                const gone = new Promise((done) => viewer.canvas.addEventListener("webglcontextlost", done));
-                lost.loseContext();
-                await gone;
-                const back = new Promise((done) => viewer.canvas.addEventListener("webglcontextrestored", done));
-                setTimeout(() => lost.restoreContext(), 50);
-                await back;
-            }"""
-        )
-        page.until("viewer.root.dataset.state !== 'done'")
-        np.testing.assert_array_equal(page.picture(), before)
 
 
 def test_without_webgl2_there_is_a_message_and_the_picture(browser: Browser, file: Path) -> None:

@@ -188,3 +188,18 @@ def test_the_picture_is_saved(pair: Opened, tmp_path: Path) -> None:
     from PIL import Image
 
     np.testing.assert_array_equal(np.asarray(Image.open(saved).convert("RGB")), pair.picture())
+
+
+def test_every_plot_opens_and_says_what_it_shows(pair: Opened) -> None:
+    drawer = pair.page.get_by_role("region", name="Plot")
+    buttons = pair.page.locator(".views button")
+    assert buttons.count() >= 5
+    for button in buttons.all():
+        button.click()
+        assert drawer.is_visible()
+        assert drawer.get_by_role("heading").inner_text() == button.inner_text()
+        assert pair.state["view"] == button.get_attribute("value")
+        drawer.get_by_role("img").first.wait_for()
+        assert len(drawer.get_by_role("img").first.get_attribute("aria-label") or "") > 20
+    pair.page.get_by_role("button", name="Close the plot").click()
+    assert not drawer.is_visible()

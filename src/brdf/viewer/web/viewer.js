@@ -124,7 +124,7 @@ export class Viewer {
             window.addEventListener("hashchange", read, { signal });
         }
         const observer = new ResizeObserver(() => this.resize());
-        observer.observe(root);
+        for (const one of [root, this.frame.side, this.drawer.element]) observer.observe(one);
         const dark = window.matchMedia("(prefers-color-scheme: dark)");
         dark.addEventListener("change", () => this.themed(), { signal });
         signal.addEventListener("abort", () => observer.disconnect());
@@ -247,16 +247,20 @@ export class Viewer {
         const { canvas, ratio } = this;
         const sides = [canvas.clientWidth, canvas.clientHeight];
         const [width, height] = sides.map((side) => Math.max(1, Math.round(side * ratio)));
-        if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+        if (canvas.width !== width || canvas.height !== height) {
+            Object.assign(canvas, { width, height });
+            this.progress.changed();
+        }
         this.arrange();
-        this.progress.changed();
     }
 
     /** Places panes, handles and divider. */
     arrange() {
         const size = { width: this.canvas.clientWidth || 1, height: this.canvas.clientHeight || 1 };
         const free = this.frame.free(size);
+        const before = JSON.stringify(this.panes);
         this.panes = panes(this.state.compare, size, free);
+        if (JSON.stringify(this.panes) !== before) this.progress.changed();  // a panel covers another part of it
         this.handles.refresh(this.state.lights, this.seen(this.panes[0]), this.selected);
         const [low, high] = [free.x / size.width, (free.x + free.width) / size.width];
         this.divider.refresh(this.state.compare === "split", this.state.divider, low, high);
