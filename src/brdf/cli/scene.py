@@ -13,7 +13,7 @@ Light = Annotated[
 ]
 Env = Annotated[str | None, typer.Option(help="Light all around: studio, an .hdr or .exr file, a number.")]
 Exposure = Annotated[float, typer.Option(help="Stops.")]
-Tone = Annotated[str, typer.Option(help="Tone curve: filmic, reinhard or clip.")]
+Tone = Annotated[str, typer.Option(help="Tone curve: filmic, neutral, reinhard, clip or linear.")]
 NoShadows = Annotated[bool, typer.Option("--no-shadows", help="The mesh does not shadow itself.")]
 
 DEFAULTS = {"mesh": "teapot", "lights": None, "env": None, "exposure": 0.0, "tone": "filmic", "shadows": True}

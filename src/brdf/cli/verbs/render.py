@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from .. import arguments, output
+from .. import arguments, output, scene
 
 if TYPE_CHECKING:
     from ...reflectance import Reflectance
@@ -19,12 +19,9 @@ ALBEDO_ANGLE = 45.0
 def command(
     material: arguments.Material,
     out: Annotated[Path | None, typer.Option("-o", "--output", help="Picture, .png or .exr. [NAME.png]")] = None,
-    mesh: Annotated[str, typer.Option(help="A name (`brdf list meshes`) or a mesh file.")] = "teapot",
-    light: Annotated[
-        list[str] | None,
-        typer.Option(metavar="LIGHT", help="directional:theta=30,phi=45,power=3 or point:1/2/3,power=2; repeatable."),
-    ] = None,
-    env: Annotated[str | None, typer.Option(help="Light all around: studio, an .hdr or .exr file, a number.")] = None,
+    mesh: scene.Mesh = "teapot",
+    light: scene.Light = None,
+    env: scene.Env = None,
     size: Annotated[str, typer.Option(metavar="WxH", help="Pixels.")] = "800x600",
     compare: Annotated[
         str | None, typer.Option(metavar="MATERIAL", help="Right half; by default a 16 KB slice stack.")
@@ -32,12 +29,10 @@ def command(
     no_compare: Annotated[bool, typer.Option("--no-compare", help="The material alone, no second half.")] = False,
     samples: Annotated[int, typer.Option(help="Directions to the environment per pixel.")] = 16,
     supersampling: Annotated[int, typer.Option(metavar="N", help="N x N rays per pixel.")] = 2,
-    exposure: Annotated[float, typer.Option(help="Stops.")] = 0.0,
-    tone: Annotated[
-        str, typer.Option(help="Tone curve of a .png: filmic, neutral, reinhard, clip or linear.")
-    ] = "filmic",
+    exposure: scene.Exposure = 0.0,
+    tone: scene.Tone = "filmic",
     background: Annotated[str, typer.Option(help="gradient, environment, transparent, or R/G/B.")] = "gradient",
-    no_shadows: Annotated[bool, typer.Option("--no-shadows", help="The mesh does not shadow itself.")] = False,
+    no_shadows: scene.NoShadows = False,
     seed: Annotated[int, typer.Option(help="The same seed gives the same picture.")] = 0,
     backend: Annotated[
         str, typer.Option(help="cpu, or gl: a graphics card, or OpenGL's software driver (needs brdf[gl]).")
@@ -72,10 +67,10 @@ def command(
         other = arguments.load(compare)
     elif not no_compare:
         other, label = _stack(m)
-    scene: dict[str, Any] = {
+    options: dict[str, Any] = {
         "mesh": mesh,
         "lights": light,
-        "env": _number_or_text(env),
+        "env": scene.number_or_text(env),
         "size": pixels,
         "samples": samples,
         "supersampling": supersampling,
@@ -85,10 +80,10 @@ def command(
         "backend": _available(backend),
     }
     if other is None:
-        render(m, **scene).save(path, tone=tone, exposure=exposure)
+        render(m, **options).save(path, tone=tone, exposure=exposure)
         numbers: dict[str, Any] = {"material": m.name, "bytes": m.nbytes}
     else:
-        image = render_halves(m, other, **scene)
+        image = render_halves(m, other, **options)
         numbers = _numbers(m, other, label)
         captioned(image, _caption(numbers), numbers["material"]).save(path, tone=tone, exposure=exposure)
     if json:
@@ -172,13 +167,6 @@ def _available(backend: str) -> str:
             output.note(f"{error}; the CPU draws instead")
             return "cpu"
     return backend
-
-
-def _number_or_text(text: str | None) -> str | float | None:
-    try:
-        return None if text is None else float(text)
-    except ValueError:
-        return text
 
 
 def _colour_or_text(text: str) -> str | tuple[float, ...]:
