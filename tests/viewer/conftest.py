@@ -18,6 +18,11 @@ WEB = Path(brdf.viewer.__file__).with_name("web")
 
 ON_MESA = ["--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist", "--no-sandbox"]
 
+ON_ITSELF = ["--enable-unsafe-swiftshader", "--no-sandbox"]
+"""By the software driver that Chromium brings along."""
+
+CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
+
 ADDRESS = "http://viewer.test/"
 """Where the modules are found by a page of these tests; nothing leaves the process."""
 
@@ -26,11 +31,10 @@ ADDRESS = "http://viewer.test/"
 def browser() -> Iterator[Browser]:
     """Chromium (Debian: chromium libegl1 libgl1-mesa-dri libgles2)."""
     playwright = pytest.importorskip("playwright.sync_api")
-    chromium = shutil.which("chromium") or shutil.which("google-chrome")
-    if chromium is None:
+    if CHROMIUM is None:
         pytest.skip("no Chromium; Debian has it in the package chromium")
     with playwright.sync_playwright() as engine:
-        launched = engine.chromium.launch(executable_path=chromium, args=ON_MESA)
+        launched = engine.chromium.launch(executable_path=CHROMIUM, args=ON_MESA)
         yield launched
         launched.close()
 
@@ -38,6 +42,18 @@ def browser() -> Iterator[Browser]:
 @pytest.fixture
 def modules(browser: Browser) -> Iterator[Page]:
     """An empty page that can import the viewer's modules; what it writes to the console as an error fails the test."""
+    yield from module_page(browser)
+
+
+@pytest.fixture
+def modules_on_itself(browser: Browser) -> Iterator[Page]:
+    """The same in a Chromium that draws by its own driver."""
+    launched = browser.browser_type.launch(executable_path=CHROMIUM, args=ON_ITSELF)
+    yield from module_page(launched)
+    launched.close()
+
+
+def module_page(browser: Browser) -> Iterator[Page]:
     page = browser.new_page(viewport={"width": 800, "height": 600})
     wrong: list[str] = []
     page.on("console", lambda message: wrong.append(message.text) if message.type == "error" else None)

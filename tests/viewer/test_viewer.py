@@ -145,6 +145,18 @@ def test_a_light_is_dragged_by_its_reflection(modules: Page, kind: str) -> None:
         np.testing.assert_allclose(handle, place, atol=0.5)
 
 
+def test_the_driver_of_chromium_itself_draws_the_same(modules: Page, modules_on_itself: Page) -> None:
+    data = payload([SATIN], View(fold(), env="studio"))
+    found = []
+    for page in (modules, modules_on_itself):
+        mounted(page, data, 64, 96)
+        found.append(picture(page))
+    assert "SwiftShader" in modules_on_itself.evaluate("""
+        viewer.gl.getParameter(viewer.gl.getExtension("WEBGL_debug_renderer_info").UNMASKED_RENDERER_WEBGL)""")
+    assert found[0].std() > 10
+    assert np.abs(found[1] - found[0]).mean() < 0.5
+
+
 def test_two_materials_are_compared(modules: Page, gl: GLCard) -> None:
     mounted(modules, payload([GOLD, SATIN], View("sphere", LIGHTS[:1]), compare=False))
     whole = {}
