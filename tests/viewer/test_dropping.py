@@ -57,6 +57,7 @@ def test_files_of_three_formats_are_shown(viewer: Opened, tmp_path: Path, data: 
     viewer.page.evaluate(DROP.replace("text", "fill").replace(*MERL), ["measured.binary", 0.3])
     viewer.until("viewer.state.materials[0] === 2")
     matte = viewer.picture()
+    assert viewer.page.get_by_role("complementary").get_by_role("slider", name="low").count() == 0
     red, green, blue = matte.reshape(-1, 3).astype(float).mean(0)
     assert blue > green > red  # of which the format keeps 1.66, 1.15 and 1 times as much
     assert (matte != shiny).any()

@@ -23,7 +23,8 @@ export function parameterControls(viewer, slot) {
         const values = { ...viewer.state.parameters[slot], [name]: value.length > 1 ? value : value[0] };
         viewer.set({ parameters: viewer.state.parameters.with(slot, values) });
     };
-    return viewer.slots.at(slot).parameters.map((parameter) => {
+    const declared = viewer.slots.at(slot).parameters.filter(({ doc }) => doc);  // not how a table is encoded
+    return declared.map((parameter) => {
         const { name, doc, size } = parameter;
         const read = () => [viewer.slots.at(slot).values[name]].flat();
         const given = { label: name.replaceAll("_", " "), doc, scale: scaleOf(parameter) };
