@@ -199,7 +199,6 @@ def test_every_plot_opens_and_says_what_it_shows(pair: Opened) -> None:
         assert drawer.is_visible()
         assert drawer.get_by_role("heading").inner_text() == button.inner_text()
         assert pair.state["view"] == button.get_attribute("value")
-        drawer.get_by_role("img").first.wait_for()
-        assert len(drawer.get_by_role("img").first.get_attribute("aria-label") or "") > 20
+        pair.until("(document.querySelector('.drawer [role=img]')?.getAttribute('aria-label') ?? '').length > 20")
     pair.page.get_by_role("button", name="Close the plot").click()
     assert not drawer.is_visible()
