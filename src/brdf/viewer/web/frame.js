@@ -83,7 +83,7 @@ class Frame {
         a.hidden = b.hidden = compare !== "split" && compare !== "side";
         if (compare === "difference") {
             a.hidden = false;
-            a.textContent = `|A − B| · ${short(this.viewer.state.gain)}`;
+            a.textContent = `|A − B| × ${short(this.viewer.state.gain)}`;
         }
         if (a.hidden) return;
         const { clientWidth: width, clientHeight: height } = this.viewer.canvas;

@@ -25,7 +25,8 @@ export function parameterControls(viewer, slot) {
     };
     const declared = viewer.slots.at(slot).parameters.filter(({ doc }) => doc);  // not how a table is encoded
     return declared.map((parameter) => {
-        const { name, doc, size } = parameter;
+        const { name, size, unit } = parameter;
+        const doc = unit && unit !== "1" ? `${parameter.doc} [${unit}]` : parameter.doc;
         const read = () => [viewer.slots.at(slot).values[name]].flat();
         const given = { label: name.replaceAll("_", " "), doc, scale: scaleOf(parameter) };
         const change = (/** @type {number[]} */ value) => write(name, value);
@@ -75,11 +76,11 @@ function channels(given, read, write) {
  * @param {Parameter} parameter
  * @returns {Scale}
  */
-export function scaleOf({ low, high, value, unit }) {
+export function scaleOf({ low, high, value }) {
     const largest = Math.max(...[value].flat().map(Math.abs), 1e-6);
     const known = high !== null && high !== undefined && high < 1e4;
     const most = known ? /** @type {number} */ (high) : Math.max(1, 4 * largest, low ? 10 * low : 0);
     const least = low ?? -most;
     const log = least > 0 && most / least >= DECADES;
-    return { low: least, high: most, log, unit: unit && unit !== "1" ? ` ${unit}` : "" };
+    return { low: least, high: most, log };
 }
