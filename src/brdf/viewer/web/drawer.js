@@ -48,17 +48,21 @@ export class Drawer {
             this.shown = wanted.id;
             this.title.textContent = wanted.title;
             this.drawn = wanted.create(this.body, this.context);
+            this.draw();
+            return;
         }
         if (!this.drawn || this.request) return;
-        this.request = requestAnimationFrame(() => {
-            this.request = 0;
-            if (this.viewer.gl.isContextLost()) return;
-            try {
-                this.drawn?.update();
-            } catch (error) {
-                this.viewer.failed(error);
-            }
-        });
+        this.request = requestAnimationFrame(() => this.draw());
+    }
+
+    draw() {
+        this.request = 0;
+        if (this.viewer.gl.isContextLost()) return;
+        try {
+            this.drawn?.update();
+        } catch (error) {
+            this.viewer.failed(error);
+        }
     }
 
     /** Makes the plot anew, after a lost context. */
