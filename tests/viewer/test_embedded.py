@@ -20,12 +20,12 @@ from javascript import node
 
 READ = """
 import { readFileSync, writeFileSync } from "node:fs";
-import { parse } from "WEB/formats/safetensors.js";
+import { parseSafetensors } from "WEB/formats/safetensors.js";
 const found = {};
 for (const file of process.argv.slice(2)) {
     try {
         const bytes = readFileSync(file);
-        const { texels, ...rest } = await parse(new Uint8Array(bytes).buffer, file);
+        const { texels, ...rest } = await parseSafetensors(new Uint8Array(bytes).buffer, file);
         writeFileSync(file + ".bin", new Uint8Array(texels));
         found[file] = rest;
     } catch (error) {

@@ -6,37 +6,37 @@ import posixpath
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
-from brdf.viewer.compact import compacted, compacted_style
 from brdf.viewer.linker import linked, sources
-from brdf.viewer.renaming import renamed
+from brdf.viewer.minified import minified
 
 MODULES = {
     "main.js": """\
-import { twice, Counter as Other } from "./parts/twice.js";
+import { twice, Counter } from "./parts/twice.js";
 import {
     LIMIT,
     start,
 } from "./parts/limit.js";
 
 // A comment that goes, whose text is no import { a } from "./b.js";
-const helper = 1;
+const mine = 1;
 
 /** @type {(text: string) => void} */
 const say = (text) => console.log(/** @type {any} */ (text));
 
-say(`${twice(LIMIT)} ${new Other().next()} ${helper} "// kept" ${"/* kept */"}`);
+say(`${twice(LIMIT)} ${new Counter().next()} ${mine} "// kept" ${"/* kept */"}`);
 start().then((done) => say(done));
-export default { helper };
+export default { mine };
 """,
     "parts/twice.js": """\
 import { LIMIT } from "./limit.js";
-const helper = 2;
-export function twice(x) { return x * helper; }
-export class Counter { next() { return LIMIT + helper; } }
+const factor = 2;
+export function twice(x) { return x * factor; }
+export class Counter { next() { return LIMIT + factor; } }
 """,
     "parts/limit.js": "export const LIMIT = 20;\nexport async function start() { return 'started'; }\n",
     "parts/grammar.js": """\
@@ -116,10 +116,9 @@ def test_the_script_does_what_the_modules_do(tmp_path: Path) -> None:
     apart = run(tmp_path / "main.js")
     assert sorted(apart.splitlines())[:1] == ['40 22 1 "// kept" /* kept */']
     assert "in nested bblloocccckk {} }" in apart
-    for small in (False, True):
-        (tmp_path / "joined.mjs").write_text(linked("main.js", MODULES, small), "utf-8")
-        assert run(tmp_path / "joined.mjs") == apart
-    (tmp_path / "import.mjs").write_text('import joined from "./joined.mjs";\nconsole.log(joined.helper);\n', "utf-8")
+    (tmp_path / "joined.mjs").write_text(linked("main.js", MODULES), "utf-8")
+    assert run(tmp_path / "joined.mjs") == apart
+    (tmp_path / "import.mjs").write_text('import joined from "./joined.mjs";\nconsole.log(joined.mine);\n', "utf-8")
     assert run(tmp_path / "import.mjs").splitlines()[1] == "1"
 
 
@@ -140,6 +139,21 @@ def test_comments_are_left_out() -> None:
             "in a circle: main.js -> a.js -> main.js",
         ),
         ({"main.js": 'import a from "./a.js";\n'}, 'main.js: cannot be linked: import a from "./a.js";'),
+        (
+            {"main.js": 'import { a as b } from "./a.js";\n'},
+            'main.js: cannot be linked: import { a as b } from "./a.js";',
+        ),
+        (
+            {"main.js": 'import { a } from "./a.js";\n', "a.js": "const a = 1;\n"},
+            "main.js imports a, which a.js does not export",
+        ),
+        (
+            {
+                "main.js": 'import { a } from "./a.js";\nconst [b] = [a];\n',
+                "a.js": "export const a = 1, b = 2;\nlet b;\n",
+            },
+            "a.js and main.js both declare b",
+        ),
         ({"main.js": "export { a };\n"}, "main.js: cannot be linked: export { a };"),
     ],
 )
@@ -152,10 +166,10 @@ def test_every_module_of_the_viewer_links_and_is_used_by_an_entry() -> None:
     modules = {path for path in sources() if path.endswith(".js")}
     seen = set()
     for path in modules:
-        assert linked(path).startswith('"use strict";\n')
+        assert linked(path).startswith('"use strict";')
     for entry in ("boot.js", "main.js", "widget.js"):
         seen |= reached(entry)
-    assert modules - seen <= {"metrics.js"}
+    assert modules == seen
 
 
 def reached(entry: str) -> set[str]:
@@ -172,76 +186,11 @@ def reached(entry: str) -> set[str]:
     return found
 
 
-RENAMED = """\
-const LIMIT = 3, { first: second = LIMIT, ...rest } = { first: undefined, third: 4, fourth: 5 };
-const list = [1, 2, 3].map((value, index) => ({ value, index, [`key${index}`]: (value) => value + LIMIT }));
-class Counter {
-    step = 2;
-    constructor(start, { by = 1 } = {}) { this.start = start; this.by = by; }
-    get value() { return this.start * this.step; }
-    static from(value) { return new Counter(value); }
-    next(...values) {
-        let sum = 0;
-        for (const value of values) sum += value * this.by;
-        for (let i = 0, n = values.length; i < n; i++) if (i) sum += i; else sum -= 1;
-        return { sum, value: this.value, next() { return sum; } };
-    }
-}
-function* counted(most) { for (let at = 0; at < most; at++) yield at; }
-async function waited(value) {
-    return (await value) ? `yes ${`${value}`.length} ${LIMIT > 2 ? "more" : "less"}` : "no";
-}
-const outer = (shadowed) => { const inner = (shadowed) => shadowed * 2; return inner(shadowed) + shadowed; };
-const { next: step } = new Counter(5).next(1, 2, 3);
-let message = "", count = 0;
-for (; count < 3; count++);
-while (count-- > 1) if (count > 5) message = count; else ;
-try { message.nothing.at(); } catch (error) { message = error instanceof TypeError ? "caught" : "other"; }
-switch (message) { case "caught": message += "!"; break; default: message = "?"; }
-const pattern = /[/]a{2}/g, half = 8 / 2 / 2;
-const object = { list, rest, outer, step: step(), message, half, found: "x/aa".replace(pattern, "b"), get most() {
-    return LIMIT; } };
-waited(1).then((said) => console.log(JSON.stringify([object, [...counted(3)], second, object.list[1].key1(1), said,
-    Counter.from(4).value, outer(2), typeof list, "LIMIT" in object, Object.keys(object),
-    Counter.from(4).next().next()])));
-"""
-
-
-def test_short_names_change_nothing(tmp_path: Path) -> None:
-    short = compacted(renamed(RENAMED))
-    assert len(short) < 0.8 * len(compacted(RENAMED))
-    for name in ("LIMIT =", "shadowed", "counted", "message ="):
-        assert name not in short
-    (tmp_path / "long.mjs").write_text(RENAMED, "utf-8")
-    (tmp_path / "short.mjs").write_text(short, "utf-8")
-    said = run(tmp_path / "long.mjs")
-    assert said.startswith('[{"list":[{"value":1')
-    assert run(tmp_path / "short.mjs") == said
-
-
-def test_short_names_leave_alone_what_the_browser_has() -> None:
-    text = "const document = 1;\nfunction a(b) { return window.name + b.length + name + e; }\n"
-    short = renamed(text)
-    assert "window.name" in short
-    assert "+ name + e" in short
-    assert ".length" in short
-
-
 def test_shaders_in_scripts_lose_their_comments() -> None:
-    text = """\
-const shader = /* glsl */ `
-uniform vec2 place;  // of the picture
-${tone + " // kept"}
-void main() { x = a - -b; }`, text = ` a  b `;
-"""
-    expected = 'const shader=`uniform vec2 place;${tone + " // kept"}void main(){x=a - -b;}`,text=` a  b `;\n'
-    assert compacted(text) == expected
+    text = "const a = /* glsl */ `\n// why\nuniform vec2 place;  // of the picture\n    x = a - -b;`, b = `// kept`;\n"
+    assert minified(text, "application/javascript") == "const a=`\nuniform vec2 place;\nx = a - -b;`,b=`// kept`"
 
 
-def test_style_sheets_keep_what_they_say() -> None:
-    text = """\
-.a :focus, .b > i { content: "a: b ;"; color: red;  /* why */ }
-@media (x: 1px) { .c { top: calc(1px + 2px); } }
-"""
-    expected = '.a :focus,.b>i{content:"a: b ;";color:red}@media (x:1px){.c{top:calc(1px + 2px)}}\n'
-    assert compacted_style(text) == expected
+def test_without_the_library_the_text_stays(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "minify", None)
+    assert minified("a  =  1", "application/javascript") == "a  =  1"

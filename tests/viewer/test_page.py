@@ -18,8 +18,8 @@ import containers
 from brdf.errors import ParameterError
 from brdf.models import GGX, Lambertian
 from brdf.reflectance import Reflectance
-from brdf.viewer.compact import compacted_style
 from brdf.viewer.linker import linked, sources
+from brdf.viewer.minified import minified
 from brdf.viewer.picture import LARGEST
 
 GOLD = GGX(alpha=0.2, F0=(1, 0.78, 0.34)).named("gold <\"&'> </script>")
@@ -81,7 +81,7 @@ def test_pages_with_the_teapot_are_small(make: object, most: int, tmp_path: Path
 
 
 def test_the_code_is_small() -> None:
-    code = linked("main.js") + compacted_style(sources()["style.css"])
+    code = linked("main.js") + minified(sources()["style.css"], "text/css")
     assert len(gzip.compress(code.encode(), 9)) <= 40 * 1024
 
 

@@ -1,7 +1,8 @@
 """The viewer's ES modules as one script: no tools, for their syntax is kept plain.
 
-A module imports by `import { a, b as c } from "./x.js";` and exports by `export function|class|const|let`, or
-`export default`, each at the start of a line. Each becomes a block of its own, so that names need not be unique.
+A module imports by `import { a, b } from "./x.js";` and exports by `export function|class|const|let`, or `export
+default`, each at the start of a line. So they can stand one behind the other: what a module declares outside of
+functions has a name that no other module gives.
 """
 
 from __future__ import annotations
@@ -12,14 +13,12 @@ from collections.abc import Mapping
 from functools import cache
 from importlib import resources
 
-from .compact import compacted
-from .renaming import renamed
+from .minified import minified
 
-IMPORT = re.compile(r'^import \{([^}]*)\} from "([^"]+)";\n', re.M)
-EXPORT = re.compile(r"^export (?:async )?(?:function\*?|class|const|let) (\w+)", re.M)
+IMPORT = re.compile(r'^import \{((?:\s*\w+\s*,)*(?:\s*\w+)?\s*)\} from "([^"]+)";\n', re.M)
+EXPORT = re.compile(r"^export (?=(?:async )?(?:function|class|const|let) )", re.M)
+DECLARATION = re.compile(r"^(export )?(?:async )?(?:function\*?|class|const|let) (\w+|\[[^\]]*\]|\{[^}]*\})", re.M)
 UNKNOWN = re.compile(r"^\s*(?:import\b(?! *\()|export\b).*", re.M)
-
-DEFAULT = "entry_default"
 
 
 @cache
@@ -39,24 +38,21 @@ def sources() -> Mapping[str, str]:
     return found
 
 
-def linked(entry: str, modules: Mapping[str, str] | None = None, small: bool = True) -> str:
+def linked(entry: str, modules: Mapping[str, str] | None = None) -> str:
     """`entry` and what it imports as one script; what it exports by default, the script does. `modules`: texts by
-    path, by default the viewer's own. Unless `small`, names and space stay as they are, which takes no time.
+    path, by default the viewer's own.
 
-    Raises ValueError for a module that is missing, for a circle of imports, for syntax beside the plain one.
+    Raises ValueError for a module or a name that is missing, for a circle of imports, for a name that two modules
+    declare, for syntax beside the plain one.
     """
     texts = sources() if modules is None else modules
     order: list[str] = []
     _visit(entry, texts, order, [])
-    numbers = {path: number for number, path in enumerate(order)}
-    exports = {path: EXPORT.findall(texts[path]) for path in order}
-    parts = [_wrapped(path, texts[path], numbers, exports) for path in order]
-    body = f"let {', '.join(map(_module, numbers.values()))};\n" + "".join(parts)
-    if "export default" in texts[entry]:
-        body += f"export default {_module(numbers[entry])}[{len(exports[entry])}];\n"
-    else:
+    _require_unique({path: _declared(texts[path]) for path in order})
+    body = "".join(_plain(path, texts, is_entry=path == entry) for path in order)
+    if "\nexport default " not in body:
         body = f"{{\n{body}}}\n"  # a script's names are those of the whole page, but for a block's
-    return '"use strict";\n' + (compacted(renamed(body)) if small else body)
+    return minified('"use strict";\n' + body, "application/javascript")
 
 
 def _visit(path: str, texts: Mapping[str, str], order: list[str], open_: list[str]) -> None:
@@ -75,30 +71,30 @@ def _resolved(path: str, target: str) -> str:
     return posixpath.normpath(posixpath.join(posixpath.dirname(path), target))
 
 
-def _module(number: int) -> str:
-    return f"module_{number}"
+def _declared(text: str) -> dict[str, bool]:
+    """The names a module declares outside of functions, and whether it exports them."""
+    found = DECLARATION.findall(text)
+    return {name: bool(exported) for exported, pattern in found for name in re.findall(r"\w+", pattern)}
 
 
-def _wrapped(path: str, text: str, numbers: Mapping[str, int], exports: Mapping[str, list[str]]) -> str:
-    """A module as a block that leaves behind what it exports, in a list: names would take room."""
+def _require_unique(declared: Mapping[str, Mapping[str, bool]]) -> None:
+    owners: dict[str, str] = {}
+    for path, names in declared.items():
+        for name in names:
+            if name in owners:
+                raise ValueError(f"{owners[name]} and {path} both declare {name}")
+            owners[name] = path
 
-    def bound(match: re.Match[str]) -> str:
-        target = _resolved(path, match[2])
-        places = [""] * len(exports[target])
-        for name in filter(None, map(str.strip, match[1].split(","))):
-            given, *renamed_to = re.split(r"\s+as\s+", name)
-            if given not in exports[target]:
-                raise ValueError(f"{path} imports {given}, which {target} does not export")
-            places[exports[target].index(given)] = renamed_to[0] if renamed_to else given
-        return f"const [{', '.join(places).rstrip(', ')}] = {_module(numbers[target])};\n"
 
-    body = IMPORT.sub(bound, text)
-    exported = list(exports[path])
-    body = re.sub(r"^export (?=(?:async )?(?:function|class|const|let) )", "", body, flags=re.M)
-    if re.search(r"^export default ", body, re.M):
-        body = re.sub(r"^export default ", f"const {DEFAULT} = ", body, count=1, flags=re.M)
-        exported.append(DEFAULT)
-    rest = UNKNOWN.search(body)
+def _plain(path: str, texts: Mapping[str, str], is_entry: bool) -> str:
+    """A module without what imports and exports."""
+    for names, target in IMPORT.findall(texts[path]):
+        exports = _declared(texts[_resolved(path, target)])
+        for name in re.findall(r"\w+", names):
+            if not exports.get(name):
+                raise ValueError(f"{path} imports {name}, which {_resolved(path, target)} does not export")
+    body = EXPORT.sub("", IMPORT.sub("", texts[path]))
+    rest = UNKNOWN.search(re.sub(r"^export default ", "", body, count=1, flags=re.M) if is_entry else body)
     if rest:
         raise ValueError(f"{path}: cannot be linked: {rest[0].strip()}")
-    return f"{{\n{body}{_module(numbers[path])} = [{', '.join(exported)}];\n}}\n"
+    return body

@@ -11,8 +11,8 @@ from functools import cache
 from string import Template
 
 from ..reflectance import Reflectance
-from .compact import compacted_style
 from .linker import linked, sources
+from .minified import minified
 from .payload import View, payload, title_of
 
 PICTURE_SIZE = (560, 420)
@@ -37,13 +37,13 @@ def page(shown: Sequence[Reflectance], view: View | None = None) -> str:
 
 def document(title: str, image: str, data: bytes | None = None) -> str:
     """The page's HTML. `image`: address of the picture. `data`: the container, None where the page asks its server."""
-    boot, code = scripts(small=data is not None)
+    boot, code = scripts()
     digests = [base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in (boot, code)]
     allowed = {"scripts": " ".join(f"'sha256-{digest}'" for digest in digests)}
     return Template(sources()["page.html"]).substitute(
         title=html.escape(title),
         policy=POLICY.format(**allowed, **(SERVED if data is None else ALONE)),
-        style=compacted_style(sources()["style.css"]),
+        style=minified(sources()["style.css"], "text/css"),
         source="data-src" if data is None else "src",
         image=html.escape(image),
         width=PICTURE_SIZE[0],
@@ -55,9 +55,9 @@ def document(title: str, image: str, data: bytes | None = None) -> str:
 
 
 @cache
-def scripts(small: bool) -> tuple[str, str]:
-    """The script that unpacks, and the one that is unpacked; `small` in files; what is served does not wait."""
-    return linked("boot.js", small=small), linked("main.js", small=small)
+def scripts() -> tuple[str, str]:
+    """The script that unpacks, and the one that is unpacked."""
+    return linked("boot.js"), linked("main.js")
 
 
 def packed(data: bytes) -> str:

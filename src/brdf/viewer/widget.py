@@ -8,8 +8,8 @@ from typing import Any
 
 from ..errors import MissingExtraError
 from ..reflectance import Reflectance
-from .compact import compacted_style
 from .linker import linked, sources
+from .minified import minified
 from .payload import View, payload
 
 
@@ -32,8 +32,8 @@ def _widget_class() -> Any:
     class Viewer(anywidget.AnyWidget):
         """Turns, lights and compares reflectances within a notebook."""
 
-        _esm = linked("widget.js", small=False)
-        _css = compacted_style(sources()["style.css"])
+        _esm = linked("widget.js")
+        _css = minified(sources()["style.css"], "text/css")
         payload = traitlets.Bytes(b"").tag(sync=True)
         state = traitlets.Dict().tag(sync=True)
         height = traitlets.Int(480, min=120, help="pixels").tag(sync=True)

@@ -1,5 +1,6 @@
 // Controls that read and write one value each, and follow when it is changed elsewhere.
 
+import { encode, linear } from "./colour.js";
 import { element } from "./element.js";
 
 /**
@@ -7,10 +8,10 @@ import { element } from "./element.js";
  * @typedef {{low: number, high: number, log?: boolean, unit?: string}} Scale
  */
 
-const STEPS = 500;
+const SLIDER_STEPS = 500;
 
 /** @param {number} value with three digits @returns {string} */
-export function short(value) {
+export function typeable(value) {
     const size = Math.abs(value);
     if (size && (size < 1e-3 || size >= 1e5)) return value.toExponential(1).replace("e+", "e");
     return String(Number(value.toPrecision(size >= 100 ? 4 : 3)));
@@ -24,11 +25,11 @@ export function short(value) {
 export function slider({ label, doc, scale, read, write }) {
     const { low, high, log } = scale;
     const position = (/** @type {number} */ v) =>
-        STEPS * (log ? Math.log(Math.max(v, low) / low) / Math.log(high / low) : (v - low) / (high - low));
+        SLIDER_STEPS * (log ? Math.log(Math.max(v, low) / low) / Math.log(high / low) : (v - low) / (high - low));
     const value = (/** @type {number} */ p) =>
-        log ? low * (high / low) ** (p / STEPS) : low + ((high - low) * p) / STEPS;
+        log ? low * (high / low) ** (p / SLIDER_STEPS) : low + ((high - low) * p) / SLIDER_STEPS;
     const range = element("input", {
-        type: "range", min: 0, max: STEPS, step: 1, "aria-label": label, title: doc,
+        type: "range", min: 0, max: SLIDER_STEPS, step: 1, "aria-label": label, title: doc,
         oninput: () => write(Number(value(Number(range.value)).toPrecision(4))),
     });
     const typed = element("input", {
@@ -43,9 +44,9 @@ export function slider({ label, doc, scale, read, write }) {
     const refresh = () => {
         const now = read();
         range.value = String(Math.round(position(now)));
-        range.style.setProperty("--filled", `${Math.min(100, Math.max(0, position(now) / STEPS * 100))}%`);
-        range.setAttribute("aria-valuetext", short(now) + (scale.unit ?? ""));
-        if (document.activeElement !== typed) typed.value = short(now) + (scale.unit ?? "");
+        range.style.setProperty("--filled", `${Math.min(100, Math.max(0, position(now) / SLIDER_STEPS * 100))}%`);
+        range.setAttribute("aria-valuetext", typeable(now) + (scale.unit ?? ""));
+        if (document.activeElement !== typed) typed.value = typeable(now) + (scale.unit ?? "");
     };
     return { element: element("div", { class: "row slider", title: doc }, caption(label), range, typed), refresh };
 }
@@ -121,20 +122,10 @@ export function toggle({ label, read, write }) {
     return { element: element("label", { class: "row toggle" }, caption(label), box), refresh };
 }
 
-/** @param {number} x linear in [0, 1] @returns {number} */
-function srgb(x) {
-    return x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055;
-}
-
-/** @param {number} y in [0, 1] @returns {number} */
-function linear(y) {
-    return y <= 0.04045 ? y / 12.92 : ((y + 0.055) / 1.055) ** 2.4;
-}
-
 /** @param {ArrayLike<number>} colour linear @returns {string} */
 export function hexadecimal(colour) {
     const part = (/** @type {number} */ x) =>
-        Math.round(255 * srgb(Math.min(1, Math.max(0, x)))).toString(16).padStart(2, "0");
+        Math.round(255 * encode(x)).toString(16).padStart(2, "0");
     return `#${part(colour[0])}${part(colour[1])}${part(colour[2])}`;
 }
 

@@ -6,7 +6,7 @@
  *     `map`: radiance and density over solid angle [1/sr]; `directions`: places (u, v); `backdrop`: out of focus.
  */
 
-const SIDE = 256;  // of the square of numbers, to each of which a direction belongs
+const LIST_SIDE = 256;  // of the square of numbers, to each of which a direction belongs
 const BACKDROP_HEIGHT = 32;
 const LUMINANCE = [0.2126, 0.7152, 0.0722];
 
@@ -53,21 +53,21 @@ function drawn(map, width, height) {
         rows[row] = total += sum;
     }
     for (let i = 3; i < map.length; i += 4) map[i] /= total;
-    const places = new Float32Array(SIDE * SIDE * 2);
+    const places = new Float32Array(LIST_SIDE * LIST_SIDE * 2);
     let row = 0;
-    for (let i = 0; i < SIDE; i++) {
-        const wanted = ((i + 0.5) / SIDE) * total;
+    for (let i = 0; i < LIST_SIDE; i++) {
+        const wanted = ((i + 0.5) / LIST_SIDE) * total;
         while (rows[row] < wanted && row < height - 1) row++;
         const before = row ? rows[row - 1] : 0;
         const down = Math.min(1, (wanted - before) / (rows[row] - before || 1));
         const place = Math.acos(edge(row) + down * (edge(row + 1) - edge(row))) / Math.PI;
         const line = columns.subarray(row * width, (row + 1) * width);
-        for (let j = 0; j < SIDE; j++) {
-            const part = ((j + 0.5) / SIDE) * line[width - 1];
+        for (let j = 0; j < LIST_SIDE; j++) {
+            const part = ((j + 0.5) / LIST_SIDE) * line[width - 1];
             const column = firstAbove(line, part);
             const left = column ? line[column - 1] : 0;
             const right = Math.min(1, (part - left) / (line[column] - left || 1));
-            places.set([(column + right) / width, place], 2 * (i * SIDE + j));
+            places.set([(column + right) / width, place], 2 * (i * LIST_SIDE + j));
         }
     }
     return places;

@@ -1,6 +1,6 @@
 // What stands around and over the picture: title, tools, panel, drawer, labels, messages.
 
-import { short } from "./controls.js";
+import { typeable } from "./controls.js";
 import { Drop } from "./drop.js";
 import { element, iconButton } from "./element.js";
 import { helpDialog, KEYS_TEXT } from "./help.js";
@@ -83,7 +83,7 @@ class Frame {
         a.hidden = b.hidden = compare !== "split" && compare !== "side";
         if (compare === "difference") {
             a.hidden = false;
-            a.textContent = `|A − B| × ${short(this.viewer.state.gain)}`;
+            a.textContent = `|A − B| × ${typeable(this.viewer.state.gain)}`;
         }
         if (a.hidden) return;
         const { clientWidth: width, clientHeight: height } = this.viewer.canvas;

@@ -1,6 +1,6 @@
 // Programs, textures and targets of WebGL2, with errors that can be read.
 
-const HEADER = "#version 300 es\n";
+const VERSION_LINE = "#version 300 es\n";
 
 /** Textures are made on the last unit that every card has; programs use the first ones. */
 const SCRATCH_UNIT = 31;
@@ -21,7 +21,7 @@ export class Program {
         this.program = gl.createProgram();
         this.shaders = [gl.VERTEX_SHADER, gl.FRAGMENT_SHADER].map((kind, i) => {
             const shader = /** @type {WebGLShader} */ (gl.createShader(kind));
-            gl.shaderSource(shader, HEADER + [vertex, fragment][i]);
+            gl.shaderSource(shader, VERSION_LINE + [vertex, fragment][i]);
             gl.compileShader(shader);
             gl.attachShader(this.program, shader);
             return shader;

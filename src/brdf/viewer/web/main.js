@@ -6,7 +6,7 @@ import { mount } from "./viewer.js";
  * The container of bytes, which lies in the page or beside it.
  * @returns {Promise<ArrayBuffer>}
  */
-async function contents() {
+async function payloadBytes() {
     const embedded = document.getElementById("payload");
     if (embedded) {
         const packed = Uint8Array.from(atob(embedded.textContent ?? ""), (c) => c.charCodeAt(0));
@@ -24,7 +24,7 @@ async function contents() {
  */
 async function show(root, picture) {
     try {
-        const viewer = mount(root, await contents(), { picture });
+        const viewer = mount(root, await payloadBytes(), { picture });
         Object.assign(globalThis, { viewer });  // for the console: viewer.state, viewer.setState({ … })
         return viewer;
     } catch (error) {

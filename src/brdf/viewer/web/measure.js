@@ -2,7 +2,7 @@
 
 import { Comparer } from "./metrics.js";
 
-const REST = 300;  // milliseconds
+const PAUSE = 300;  // milliseconds
 
 export class Measure {
     /**
@@ -35,7 +35,7 @@ export class Measure {
         clearTimeout(this.timer);
         const given = wanted ? this.slots.comparison : null;
         this.psnr = given ? given.psnr ?? Infinity : null;
-        if (wanted && !given) this.timer = setTimeout(() => this.measure(), REST);
+        if (wanted && !given) this.timer = setTimeout(() => this.measure(), PAUSE);
     }
 
     measure() {

@@ -8,7 +8,7 @@ import { treeOf } from "./tree.js";
  *     `exact`: the unit sphere in closed form; `points`: x, y, z of what must be seen.
  */
 
-const STEPS = 65535;
+const LEVELS = 65535;
 
 /**
  * @param {import("./payload.js").MeshEntry} entry
@@ -21,7 +21,7 @@ export function decodedMesh(entry, payload) {
     const folded = spread(payload.numbers(entry.normals), [-1, -1], [1, 1]);
     const uvs = entry.has_uv ? spread(payload.numbers(entry.uvs), entry.uv_least, entry.uv_greatest) : null;
     const corners = payload.numbers(entry.corners);
-    const normals = unfolded(folded);
+    const normals = octahedral(folded);
     const places = new Float32Array(corners.length * 3);
     corners.forEach((vertex, i) => places.set(positions.subarray(3 * vertex, 3 * vertex + 3), 3 * i));
     const { order, nodes } = treeOf(places);
@@ -69,7 +69,7 @@ function spread(steps, least, greatest) {
     const columns = least.length;
     return Float32Array.from(steps, (step, i) => {
         const k = i % columns;
-        return least[k] + (step / STEPS) * (greatest[k] - least[k]);
+        return least[k] + (step / LEVELS) * (greatest[k] - least[k]);
     });
 }
 
@@ -77,7 +77,7 @@ function spread(steps, least, greatest) {
  * Unit vectors from places on the octahedron [Cigolle2014].
  * @param {Float32Array} folded
  */
-function unfolded(folded) {
+function octahedral(folded) {
     const normals = new Float32Array((folded.length / 2) * 3);
     for (let i = 0; i < folded.length / 2; i++) {
         let [x, y] = [folded[2 * i], folded[2 * i + 1]];

@@ -1,5 +1,6 @@
 // How far one material is from another, by the package's protocol (see brdf.metrics): pictures of a lit sphere.
 
+import { encode } from "./colour.js";
 import { Directions } from "./evaluate.js";
 
 /** Degrees between the direction to the light and to the viewer. */
@@ -31,7 +32,7 @@ export class Comparer {
         const [a, b] = [reference, other].map((material) => this.evaluator.evaluate(material, wi, wo));
         let sum = 0;
         this.cosines.forEach((cosine, i) => {
-            for (let n = 4 * i; n < 4 * i + 3; n++) sum += (encoded(a[n] * cosine) - encoded(b[n] * cosine)) ** 2;
+            for (let n = 4 * i; n < 4 * i + 3; n++) sum += (encode(a[n] * cosine) - encode(b[n] * cosine)) ** 2;
         });
         return -10 * Math.log10(sum / (3 * this.cosines.length));
     }
@@ -65,13 +66,4 @@ export function litPixels(size) {
         }
     }
     return { wi: new Float32Array(wi), wo: new Float32Array(wo), cosines: new Float64Array(cosines) };
-}
-
-/**
- * Linear to sRGB, clamped to [0, 1].
- * @param {number} linear
- */
-export function encoded(linear) {
-    const x = Math.min(Math.max(linear, 0), 1);
-    return x <= 0.0031308 ? 12.92 * x : 1.055 * x ** (1 / 2.4) - 0.055;
 }

@@ -11,7 +11,7 @@ import { element } from "./element.js";
  */
 
 const DECADES = 100;  // bounds farther apart than this get a logarithmic scale
-const CHANNELS = ["R", "G", "B"];
+const CHANNEL_NAMES = ["R", "G", "B"];
 
 /**
  * @param {Viewer} viewer
@@ -32,7 +32,7 @@ export function parameterControls(viewer, slot) {
         const change = (/** @type {number[]} */ value) => write(name, value);
         if (size === 1) return slider({ ...given, read: () => read()[0], write: (value) => change([value]) });
         if (parameter.low === 0 && parameter.high === 1) return colour({ ...given, read, write: change });
-        return channels(given, read, change);
+        return channelSliders(given, read, change);
     });
 }
 
@@ -43,8 +43,8 @@ export function parameterControls(viewer, slot) {
  * @param {(value: number[]) => void} write
  * @returns {Control}
  */
-function channels(given, read, write) {
-    const mean = () => read().reduce((sum, value) => sum + value) / CHANNELS.length;
+function channelSliders(given, read, write) {
+    const mean = () => read().reduce((sum, value) => sum + value) / CHANNEL_NAMES.length;
     const { low } = given.scale;
     const all = slider({
         ...given, read: mean,
@@ -53,7 +53,7 @@ function channels(given, read, write) {
             write(read().map((x) => (low < 0 || now === 0 ? x + value - now : (x * value) / now)));
         },
     });
-    const each = CHANNELS.map((channel, k) => slider({
+    const each = CHANNEL_NAMES.map((channel, k) => slider({
         ...given, label: `${given.label} ${channel}`, read: () => read()[k],
         write: (value) => write(read().with(k, value)),
     }));

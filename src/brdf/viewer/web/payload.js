@@ -44,7 +44,7 @@ export function decode(given) {
         }
         return new Uint8Array(buffer, start + offset, count);
     };
-    return { ...contents, bytes, numbers: (/** @type {NumbersRef} */ ref) => numbers(bytes(ref), ref) };
+    return { ...contents, bytes, numbers: (/** @type {NumbersRef} */ ref) => unfolded(bytes(ref), ref) };
 }
 
 /**
@@ -53,7 +53,7 @@ export function decode(given) {
  * @param {Uint8Array} planes
  * @param {NumbersRef} ref
  */
-function numbers(planes, { rows, columns, bits, order }) {
+function unfolded(planes, { rows, columns, bits, order }) {
     const count = rows * columns;
     if (planes.length !== (count * bits) / 8) throw new Error("The page's data is cut short; make the page again.");
     const found = new Uint32Array(count);

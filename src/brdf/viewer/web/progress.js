@@ -16,8 +16,8 @@ const REST = 120;
 /** Work is sent in pieces of so many milliseconds, so that the page stays responsive; slow cards get larger ones. */
 const PIECE = { fast: 30, slow: 120 };
 
-const SIDE = 4;
-const SUBSAMPLES = SIDE * SIDE;
+const RAYS_SIDE = 4;
+const SUBSAMPLES = RAYS_SIDE * RAYS_SIDE;
 const DIRECTIONS = 256;  // to the environment, of each kind, until a picture is done
 const COARSE_PASSES = 8;
 const SLOW = 0.4;  // effort below which a coarse picture is refined before a large fine one
@@ -29,8 +29,9 @@ const MOST_EFFORT = 8;
 /** Places in a pixel, as brdf.render.background.offsets, in an order that spreads from the first on. */
 const PLACES = Array.from({ length: SUBSAMPLES }, (_, n) => {
     const k = (n * 7) % SUBSAMPLES;
-    const [i, j] = [Math.floor(k / SIDE), k % SIDE];
-    return /** @type {[number, number]} */ ([(i + (j + 0.5) / SIDE) / SIDE, (j + (i + 0.5) / SIDE) / SIDE]);
+    const [i, j] = [Math.floor(k / RAYS_SIDE), k % RAYS_SIDE];
+    const [x, y] = [(i + (j + 0.5) / RAYS_SIDE) / RAYS_SIDE, (j + (i + 0.5) / RAYS_SIDE) / RAYS_SIDE];
+    return /** @type {[number, number]} */ ([x, y]);
 });
 
 /** The only pass of a quick picture. */
@@ -146,7 +147,7 @@ export class Progress {
         this.shots = shots;
         const scale = Math.min(1, Math.sqrt(this.effort));
         const samples = Math.max(1, Math.min(16, Math.round(2 * this.effort)));
-        const coarse = shots.map((shot) => scaled(shot, scale));
+        const coarse = shots.map((shot) => resized(shot, scale));
         coarse.forEach((shot, i) => {
             const picture = (this.pictures[0][i] ??= new Picture());
             picture.restart(shot.width, shot.height);
@@ -174,7 +175,7 @@ export class Progress {
         const passes = shots[0].scene.environment ? DIRECTIONS / samples : SUBSAMPLES;
         const phase = (/** @type {number} */ level, /** @type {number} */ scale, /** @type {number} */ most) => ({
             pictures: shots.map((_, i) => (this.pictures[level][i] ??= new Picture())),
-            shots: shots.map((shot) => scaled(shot, scale)), passes: most, samples, shownFrom: 1,
+            shots: shots.map((shot) => resized(shot, scale)), passes: most, samples, shownFrom: 1,
         });
         this.phases = [phase(2, 1, passes)];
         if (slow && large) {
@@ -242,7 +243,7 @@ export class Progress {
 }
 
 /** @param {Shot} shot @param {number} scale @returns {Shot} */
-function scaled(shot, scale) {
+function resized(shot, scale) {
     const [width, height] = [shot.width, shot.height].map((side) => Math.max(1, Math.round(side * scale)));
     return { ...shot, width, height };
 }

@@ -3,6 +3,7 @@
 import { cameraUniforms } from "./camera.js";
 import { cover, floatTexture, Program, Target } from "./gl.js";
 import { ADD, BACKGROUNDS, COVER, presentation, SHOWN } from "./present.js";
+import { MOST_LIGHTS } from "./state.js";
 import { direction, RADIANS } from "./vector.js";
 
 /**
@@ -18,7 +19,6 @@ import { direction, RADIANS } from "./vector.js";
  *     pixel; `total`: of samples, after all passes
  */
 
-export const MOST_LIGHTS = 8;
 const LIST_WIDTH = 2048;  // texels of a row, as texel.glsl reads lists
 
 /** The mean of passes over one shot, of which the lower left `width` x `height` pixels are drawn. */

@@ -121,14 +121,14 @@ function light(given) {
  */
 export function encoded(state, from) {
     return Object.entries(state)
-        .map(([key, value]) => [key, text(value), text(/** @type {any} */ (from)[key])])
+        .map(([key, value]) => [key, written(value), written(/** @type {any} */ (from)[key])])
         .filter(([, value, old]) => value !== old)
         .map(([key, value]) => `${key}=${encodeURIComponent(value).replaceAll("%2C", ",").replaceAll("%3A", ":")}`)
         .join("&");
 }
 
 /** @param {any} value */
-function text(value) {
+function written(value) {
     return JSON.stringify(value, (_, v) => (typeof v === "number" ? Number(v.toPrecision(5)) : v));
 }
 

@@ -1,6 +1,6 @@
 // A tree of boxes over a mesh's faces, as shadow.mesh.glsl walks it.
 
-const BINS = 16;
+const SPLITS = 16;
 const LEAF = 4;
 
 /**
@@ -61,9 +61,9 @@ function area(box) {
 }
 
 const middles = new Float32Array(6);
-const bins = new Float32Array(6 * BINS);
-const counts = new Uint32Array(BINS);
-const costs = new Float64Array(BINS);
+const bins = new Float32Array(6 * SPLITS);
+const counts = new Uint32Array(SPLITS);
+const costs = new Float64Array(SPLITS);
 
 /**
  * Parts order[start:stop] along the longest side where rays cost least by the surface area heuristic [Wald2007], and
@@ -86,14 +86,14 @@ function parted(boxes, order, start, stop) {
     const extent = (/** @type {number} */ k) => middles[3 + k] - middles[k];
     for (let k = 1; k < 3; k++) if (extent(k) > extent(axis)) axis = k;
     if (!(extent(axis) > 0)) return (start + stop) >> 1;
-    const [low, scale] = [middles[axis], BINS / extent(axis)];
+    const [low, scale] = [middles[axis], SPLITS / extent(axis)];
     const binOf = (/** @type {number} */ face) => {
         const middle = boxes[6 * face + axis] + boxes[6 * face + 3 + axis];
-        return Math.min(BINS - 1, Math.max(0, Math.floor((middle - low) * scale)));
+        return Math.min(SPLITS - 1, Math.max(0, Math.floor((middle - low) * scale)));
     };
     counts.fill(0);
     costs.fill(0);
-    for (let bin = 0; bin < BINS; bin++) bins.set(EMPTY, 6 * bin);
+    for (let bin = 0; bin < SPLITS; bin++) bins.set(EMPTY, 6 * bin);
     for (let i = start; i < stop; i++) {
         const bin = binOf(order[i]);
         counts[bin]++;
@@ -101,15 +101,15 @@ function parted(boxes, order, start, stop) {
     }
     for (const forward of [true, false]) {
         const box = new Float32Array(EMPTY);
-        for (let step = 0, faces = 0; step < BINS - 1; step++) {
-            const bin = forward ? step : BINS - 1 - step;
+        for (let step = 0, faces = 0; step < SPLITS - 1; step++) {
+            const bin = forward ? step : SPLITS - 1 - step;
             enclose(box, 0, bins, 6 * bin);
             faces += counts[bin];
             costs[forward ? bin : bin - 1] += faces ? faces * area(box) : Infinity;
         }
     }
     let best = 0;
-    for (let bin = 1; bin < BINS - 1; bin++) if (costs[bin] < costs[best]) best = bin;
+    for (let bin = 1; bin < SPLITS - 1; bin++) if (costs[bin] < costs[best]) best = bin;
     let left = start;
     for (let i = start; i < stop; i++) {
         const face = order[i];

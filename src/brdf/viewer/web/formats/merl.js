@@ -14,7 +14,7 @@ const FACTORS = [1.0, 1.15, 1.66].map((factor) => factor / 1500);
 const NODES = TURN + 1;
 
 /** @param {Uint8Array} head */
-export function recognises(head) {
+export function isMerl(head) {
     return String(dimensions(head)) === String([ROWS, COLUMNS, TURN]);
 }
 
@@ -31,10 +31,10 @@ function dimensions(head) {
  * @param {import("./bytes.js").Library} library
  * @returns {Promise<import("./bytes.js").Parsed>}
  */
-export async function parse(buffer, name, library) {
+export async function parseMerl(buffer, name, library) {
     const size = buffer.byteLength;
     if (size < HEADER) throw new Error(`${name} has ${size} bytes, too few for a MERL header (${HEADER}).`);
-    if (!recognises(new Uint8Array(buffer, 0, HEADER))) {
+    if (!isMerl(new Uint8Array(buffer, 0, HEADER))) {
         const given = dimensions(new Uint8Array(buffer, 0, HEADER)).join(" x ");
         throw new Error(`${name}: its MERL header says ${given} bins; only ${ROWS} x ${COLUMNS} x ${TURN} is read.`);
     }

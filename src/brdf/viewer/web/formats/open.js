@@ -1,9 +1,9 @@
 // Files dropped onto the page as materials, recognised by their content.
 
-import { parse as parseMerl, recognises as isMerl } from "./merl.js";
-import { parse as parseRgl } from "./rgl.js";
-import { parse as parseSafetensors, recognises as isSafetensors } from "./safetensors.js";
-import { recognises as isTensorFile } from "./tensors.js";
+import { isMerl, parseMerl } from "./merl.js";
+import { parseRgl } from "./rgl.js";
+import { isSafetensors, parseSafetensors } from "./safetensors.js";
+import { isTensorFile } from "./tensors.js";
 
 /** Bytes of the largest file that is read. */
 const MOST = 256 * 2 ** 20;

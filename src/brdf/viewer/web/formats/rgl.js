@@ -11,7 +11,7 @@ import { tensorsOf } from "./tensors.js";
  * @param {import("./bytes.js").Library} library
  * @returns {Promise<import("./bytes.js").Parsed>}
  */
-export async function parse(buffer, name, library) {
+export async function parseRgl(buffer, name, library) {
     const tensors = tensorsOf(buffer, name);
     let measured;
     try {

@@ -17,12 +17,12 @@ const ARRAYS = { F64: Float64Array, F32: Float32Array, F16: Uint16Array, U32: Ui
 const ONES = { F64: 1, F32: 1, F16: 0x3c00, U32: 1, U8: 255 };
 
 /** @type {Record<string, number>} */
-const CHANNELS = { RED: 1, RG: 2, RGBA: 4 };
+const CHANNELS_OF = { RED: 1, RG: 2, RGBA: 4 };
 
 /** @typedef {{dtype: string, bytes: Uint8Array<ArrayBuffer>}} Tensor */
 
 /** @param {Uint8Array} head */
-export function recognises(head) {
+export function isSafetensors(head) {
     return head[8] === 0x7b && new DataView(head.buffer, head.byteOffset).getUint32(4, true) === 0;
 }
 
@@ -32,8 +32,8 @@ export function recognises(head) {
  * @param {string} name
  * @returns {Promise<import("./bytes.js").Parsed>}
  */
-export async function parse(buffer, name) {
-    const { metadata, tensors } = contents(buffer, name);
+export async function parseSafetensors(buffer, name) {
+    const { metadata, tensors } = opened(buffer, name);
     let header;
     try {
         header = JSON.parse(metadata.brdf);
@@ -64,7 +64,7 @@ export async function parse(buffer, name) {
  * @param {ArrayBuffer} buffer
  * @param {string} name
  */
-function contents(buffer, name) {
+function opened(buffer, name) {
     const size = buffer.byteLength;
     if (size < 8) throw new Error(`${name} has ${size} bytes, too few for a safetensors file (8).`);
     const length = Number(new DataView(buffer).getBigUint64(0, true));
@@ -129,7 +129,7 @@ function texelsOf({ size, format, stored }, tensors) {
     if (packing) return new Uint8Array(sharedExponents(numbers).buffer);
     const levels = stored.levels ? numbersOf(tensors, stored.levels).numbers : null;
     const kept = dtype === "F64" || levels ? "F32" : dtype;
-    const channels = CHANNELS[format];
+    const channels = CHANNELS_OF[format];
     const texels = new ARRAYS[kept](pixels * channels);
     if (channels > given) texels.fill(ONES[kept]);
     for (let pixel = 0; pixel < pixels; pixel++) {

@@ -15,7 +15,7 @@ const TYPES = [
 /** @typedef {{shape: number[], numbers: any}} Tensor */
 
 /** @param {Uint8Array} head */
-export function recognises(head) {
+export function isTensorFile(head) {
     return textOf(head.subarray(0, SIGNATURE.length)) === SIGNATURE;
 }
 
@@ -35,7 +35,7 @@ export function tensorsOf(buffer, name) {
     };
     const whole = () => Number(view.getBigUint64(next(8), true));
     const start = next(SIGNATURE.length + 2);
-    if (!recognises(new Uint8Array(buffer, start)) || view.getUint16(start + SIGNATURE.length, true) !== 1) {
+    if (!isTensorFile(new Uint8Array(buffer, start)) || view.getUint16(start + SIGNATURE.length, true) !== 1) {
         throw new Error(`${name} is not a tensor file of version 1.0.`);
     }
     const count = view.getUint32(next(4), true);

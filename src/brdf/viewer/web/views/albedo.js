@@ -5,7 +5,7 @@ import { axes, curve, heightOf, rule } from "./plot.js";
 import { curvesOf, curveView } from "./view.js";
 
 /** Degrees from the normal. */
-const ANGLES = [...Array.from({ length: 17 }, (_, i) => 5 * i), 83, 86, 88];
+const VIEW_ANGLES = [...Array.from({ length: 17 }, (_, i) => 5 * i), 83, 86, 88];
 
 /** Half vectors: their zenith angles crowd at the normal, as a power of even steps, and so do narrow lobes. */
 const [ZENITHS, AZIMUTHS, POWER] = [96, 32, 3];
@@ -61,14 +61,14 @@ function halfVectors(turns, extent) {
     return found;
 }
 
-export const view = curveView({
+export const albedo = curveView({
     id: "albedo",
     title: "Albedo",
     series({ evaluator }, materials, names) {
-        return curvesOf(names, materials.map((material) => albedos(evaluator, material, ANGLES)), ANGLES);
+        return curvesOf(names, materials.map((material) => albedos(evaluator, material, VIEW_ANGLES)), VIEW_ANGLES);
     },
     what: () => "Share of the light that is reflected, over its angle,",
-    told: ({ y }) => [0, 60, 80].map((angle) => `${short(y[ANGLES.indexOf(angle)])} at ${angle}°`).join(", "),
+    told: ({ y }) => [0, 60, 80].map((angle) => `${short(y[VIEW_ANGLES.indexOf(angle)])} at ${angle}°`).join(", "),
     drawn(width, series) {
         const height = heightOf(width);
         const shares = ticks(Math.max(1, ...series.flatMap(({ y }) => Array.from(y))));

@@ -1,15 +1,15 @@
 // The image slice: f over half and difference angle at one azimuth of the difference.
 
 import { choice, toggle } from "../controls.js";
-import { encoded } from "../metrics.js";
+import { encode } from "../colour.js";
 import { decades, DEGREE, fromHalf, luminances, Pairs, powers, short } from "./numbers.js";
 import { axes, Figure, rule, svg, text } from "./plot.js";
 import { choices, chosen, degrees, namesOf } from "./view.js";
 
 /** Values along an axis, and pixels for each. */
-const [SIZE, PIXELS] = [144, 3];
+const [CELLS, PIXELS] = [144, 3];
 
-const DECADES = 4;
+const IMAGE_DECADES = 4;
 
 /** Share of the values that the scale holds: the few beside grazing incidence would take all of it. */
 const HELD = 0.99;
@@ -73,14 +73,14 @@ class ImageSlice {
 
     /** @param {import("./view.js").Material} material */
     sliced(material) {
-        const pairs = new Pairs(SIZE * SIZE);
-        const above = new Uint8Array(SIZE * SIZE);
-        const measured = new Uint8Array(SIZE * SIZE);
+        const pairs = new Pairs(CELLS * CELLS);
+        const above = new Uint8Array(CELLS * CELLS);
+        const measured = new Uint8Array(CELLS * CELLS);
         const phi = this.options.azimuth * DEGREE;
         const isMeasured = measuredNodes(material);
-        for (let n = 0; n < SIZE * SIZE; n++) {
-            const thetaH = this.half(((n % SIZE) + 0.5) / SIZE);
-            const thetaD = ((Math.floor(n / SIZE) + 0.5) / SIZE) * 90 * DEGREE;
+        for (let n = 0; n < CELLS * CELLS; n++) {
+            const thetaH = this.half(((n % CELLS) + 0.5) / CELLS);
+            const thetaD = ((Math.floor(n / CELLS) + 0.5) / CELLS) * 90 * DEGREE;
             const [wi, wo] = fromHalf(thetaH, thetaD, phi);
             pairs.add(wi, wo);
             above[n] = Number(wi[2] > 0 && wo[2] > 0);
@@ -106,7 +106,7 @@ class ImageSlice {
         return decades(this.slices.map(({ bright, above }) => {
             const shown = bright.filter((_, n) => above[n]).sort();
             return shown.subarray(0, Math.ceil(HELD * shown.length));
-        }), DECADES);
+        }), IMAGE_DECADES);
     }
 
     /**
@@ -168,18 +168,18 @@ class ImageSlice {
      * @param {Slice} slice
      */
     painted({ values, bright, above, measured }) {
-        const side = SIZE * PIXELS;
+        const side = CELLS * PIXELS;
         const canvas = Object.assign(document.createElement("canvas"), { width: side, height: side });
         const ink = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
         const picture = ink.createImageData(side, side);
         const { low, high } = this.range;
         for (let row = 0; row < side; row++) {
             for (let column = 0; column < side; column++) {
-                const n = (SIZE - 1 - Math.floor(row / PIXELS)) * SIZE + Math.floor(column / PIXELS);
+                const n = (CELLS - 1 - Math.floor(row / PIXELS)) * CELLS + Math.floor(column / PIXELS);
                 if (!above[n]) continue;
                 const share = (Math.log10(bright[n]) - low) / (high - low);
                 const colour = this.options.shown === "luminance" ? cividis(share)
-                    : [0, 1, 2].map((c) => 255 * encoded(Math.PI * values[4 * n + c]));
+                    : [0, 1, 2].map((c) => 255 * encode(Math.PI * values[4 * n + c]));
                 const hatch = HATCH[Number((row + column) % 10 < 5)];
                 picture.data.set(measured[n] ? [...colour, 255] : hatch, 4 * (row * side + column));
             }
@@ -233,7 +233,7 @@ function measuredNodes({ source: { mask, mask_shape: shape } }) {
     };
 }
 
-export const view = {
+export const image = {
     id: "image",
     title: "Image slice",
     /**

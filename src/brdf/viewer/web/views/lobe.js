@@ -6,10 +6,10 @@ import { legend, PAIR } from "./plot.js";
 import { choices, chosen, lightAngle, logarithmic, namesOf } from "./view.js";
 
 /** Nodes over the zenith on either side of the mirror direction, and over the azimuth on either side of it. */
-const [ZENITHS, AZIMUTHS] = [22, 36];
-const ROWS = 2 * ZENITHS + 1, COLUMNS = 2 * AZIMUTHS + 1;
+const [RINGS, SPOKES] = [22, 36];
+const NODE_ROWS = 2 * RINGS + 1, NODE_COLUMNS = 2 * SPOKES + 1;
 
-const DECADES = 4;
+const LOBE_DECADES = 4;
 
 /** Degrees a pixel. */
 const TURNED = 0.5;
@@ -74,7 +74,7 @@ class Solid {
         const { evaluator } = this.context;
         const materials = this.context.materials();
         const names = namesOf(materials);
-        this.directions = nodes(this.options.angle);
+        this.directions = nodeDirections(this.options.angle);
         const wi = spherical(this.options.angle * DEGREE, Math.PI);
         this.lobes = materials.map((material, m) => {
             const pairs = new Pairs(this.directions.length);
@@ -83,7 +83,7 @@ class Solid {
             return { name: names[m], values, largest: values.reduce((most, value) => Math.max(most, value), 0) };
         });
         const what = this.lobes.map(({ name, largest }) => `${name}: luminance of f up to ${short(largest)} 1/sr`);
-        const kind = this.options.log ? `logarithmic, over ${DECADES} powers of ten` : "linear";
+        const kind = this.options.log ? `logarithmic, over ${LOBE_DECADES} powers of ten` : "linear";
         const whose = `Lobe as a solid, light at ${this.options.angle}°, ${kind}.`;
         this.canvas.setAttribute("aria-label", `${whose} ${what.join("; ")}. Arrow keys turn it.`);
         this.refresh();
@@ -97,7 +97,7 @@ class Solid {
             const largest = Math.max(1e-9, ...this.lobes.map((lobe) => lobe.largest));
             return (f) => f / largest;
         }
-        const { low, high } = decades(this.lobes.map((lobe) => lobe.values), DECADES);
+        const { low, high } = decades(this.lobes.map((lobe) => lobe.values), LOBE_DECADES);
         return (f) => (f > 0 ? Math.max(0, (Math.log10(f) - low) / (high - low)) : 0);
     }
 
@@ -119,7 +119,7 @@ class Solid {
         const style = getComputedStyle(canvas);
         const named = (/** @type {string} */ name) => style.getPropertyValue(name).trim();
         this.ground(ink, camera, named);
-        const colours = PAIR.map(({ colour }) => channels(named(colour.slice(4, -1))));
+        const colours = PAIR.map(({ colour }) => hexChannels(named(colour.slice(4, -1))));
         const { radius } = this;
         const facets = this.lobes.flatMap(({ values }, m) => {
             const points = directions.map((w, i) => camera.see(w.map((part) => part * radius(values[i]))));
@@ -191,10 +191,10 @@ class Solid {
      */
     facets(points, colour, opacity) {
         const found = [];
-        for (let row = 0; row < ROWS - 1; row++) {
-            for (let column = 0; column < COLUMNS - 1; column++) {
-                const first = row * COLUMNS + column;
-                const corners = [first, first + 1, first + COLUMNS + 1, first + COLUMNS].map((n) => points[n]);
+        for (let row = 0; row < NODE_ROWS - 1; row++) {
+            for (let column = 0; column < NODE_COLUMNS - 1; column++) {
+                const first = row * NODE_COLUMNS + column;
+                const corners = [first, first + 1, first + NODE_COLUMNS + 1, first + NODE_COLUMNS].map((n) => points[n]);
                 const [a, b, c, d] = corners;
                 const [p, q] = [c.map((x, i) => x - a[i]), d.map((x, i) => x - b[i])];
                 const normal = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
@@ -219,13 +219,13 @@ class Solid {
  * as a square.
  * @param {number} angle
  */
-function nodes(angle) {
+function nodeDirections(angle) {
     const found = [];
-    for (let i = -ZENITHS; i <= ZENITHS; i++) {
-        const t = i / ZENITHS;
+    for (let i = -RINGS; i <= RINGS; i++) {
+        const t = i / RINGS;
         const theta = angle + t * Math.abs(t) * (t < 0 ? angle : 89.9 - angle);
-        for (let k = -AZIMUTHS; k <= AZIMUTHS; k++) {
-            const v = k / AZIMUTHS;
+        for (let k = -SPOKES; k <= SPOKES; k++) {
+            const v = k / SPOKES;
             found.push(spherical(theta * DEGREE, v * Math.abs(v) * Math.PI));
         }
     }
@@ -236,11 +236,11 @@ function nodes(angle) {
  * The channels of a colour written as #rrggbb.
  * @param {string} hex
  */
-function channels(hex) {
+function hexChannels(hex) {
     return [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16) || 0);
 }
 
-export const view = {
+export const lobe = {
     id: "lobe",
     title: "3-D lobe",
     /**

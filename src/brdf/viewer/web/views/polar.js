@@ -10,12 +10,12 @@ const ANGLES = [0, 30, 60, 80];
 /** The same where two materials share the figure. */
 const COMPARED_ANGLES = [30, 70];
 
-const DECADES = 5;
+const POLAR_DECADES = 5;
 
 /** Room for the names of the angles around the half disc. */
-const MARGIN = 30;
+const EDGE = 30;
 
-export const view = curveView({
+export const polar = curveView({
     id: "polar",
     title: "Lobes",
     options: { log: true },
@@ -36,9 +36,9 @@ export const view = curveView({
         return `light at ${angle}°, largest ${short(y[top])} at ${Math.round(SEEN[top])}°`;
     },
     drawn(width, series, { log }) {
-        const radius = Math.min(width / 2 - MARGIN, 240);
-        const [x, y] = [width / 2, radius + MARGIN - 6];
-        const { low, high, of, ticks: rings } = scaled(series, log, DECADES);
+        const radius = Math.min(width / 2 - EDGE, 240);
+        const [x, y] = [width / 2, radius + EDGE - 6];
+        const { low, high, of, ticks: rings } = scaled(series, log, POLAR_DECADES);
         const part = (/** @type {number} */ on) => Math.max(0, (on - low) / (high - low)) || 0;
         /** @type {(angle: number, share?: number) => [number, number]} */
         const place = (angle, share = 1) => [

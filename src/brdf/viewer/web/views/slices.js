@@ -4,9 +4,9 @@ import { inPlane, SEEN, short } from "./numbers.js";
 import { axes, curve, heightOf, rule, svg } from "./plot.js";
 import { curvesOf, curveView, lightAngle, logarithmic, scaled } from "./view.js";
 
-const DECADES = 6;
+const SLICE_DECADES = 6;
 
-export const view = curveView({
+export const slices = curveView({
     id: "slices",
     title: "Slices",
     options: { log: true, angle: 45 },
@@ -18,7 +18,7 @@ export const view = curveView({
     told: ({ y }) => `largest ${short(Math.max(...y))}, along the normal ${short(y[(y.length - 1) / 2])}`,
     drawn(width, series, { log, angle }) {
         const height = heightOf(width);
-        const { of, ...y } = scaled(series, log, DECADES);
+        const { of, ...y } = scaled(series, log, SLICE_DECADES);
         const marks = [-90, -60, -30, 0, 30, 60, 90].map((at) => ({ at, text: `${Math.abs(at)}°` }));
         const x = { low: -90, high: 90, ticks: marks, label: "viewer, from the normal" };
         const { px, py, inside, parts } = axes(width, height, x, { ...y, label: "f [1/sr]" });
