@@ -95,6 +95,8 @@ class Frame {
         a.style.bottom = b.style.bottom = foot;
         a.style.right = `${width - line + 12}px`;
         b.style.left = `${line + 12}px`;
+        a.style.maxWidth = `${line - free.x - 24}px`;
+        b.style.maxWidth = `${free.x + free.width - line - 24}px`;
     }
 
     /**
