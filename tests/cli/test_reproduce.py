@@ -41,5 +41,5 @@ def test_it_lists_the_documents(brdf: Command) -> None:
 
 
 def test_mistakes_are_one_line(refused: Callable[..., str]) -> None:
-    assert "give the document to reproduce: images" in refused("reproduce")
+    assert "give the document to reproduce: fits, images" in refused("reproduce")
     assert "did you mean 'images'" in refused("reproduce", "imagse")
