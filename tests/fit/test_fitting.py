@@ -185,7 +185,7 @@ def test_the_result_is_saved_as_a_material(tmp_path: Path) -> None:
 
 
 MISTAKES = [
-    (TRUTH, {"model": "Wardd"}, UnknownNameError, "did you mean 'Ward'"),
+    (TRUTH, {"model": "Wardd"}, UnknownNameError, "unknown model 'Wardd': did you mean 'Ward'"),
     (TRUTH, {"model": Ward, "metric": "l1"}, UnknownNameError, "unknown metric 'l1'"),
     (TRUTH, {"model": Ward, "lobes": 4}, ParameterError, "1 to 3 lobes, got 4"),
     (TRUTH, {"model": Ward, "lobes": "two"}, ParameterError, 'lobes must be 1 to 3 or "auto"'),

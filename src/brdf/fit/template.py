@@ -6,9 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from .. import models
 from ..combinators import add, lobes
 from ..combinators.sums import Sum
-from ..errors import ParameterError
+from ..errors import ParameterError, UnknownNameError
 from ..formula.derivative import derivative
 from ..formula.evaluation import evaluate
 from ..formula.graph import reachable
@@ -38,7 +39,7 @@ def template_of(model: Any, count: int = 1, diffuse: bool | None = None, isotrop
     elif isinstance(model, Reflectance):
         base = model
     elif isinstance(model, str):
-        base = load(model)
+        base = _named(model)
     else:
         raise ParameterError(f"a fit needs a model, its class or its name, got {type(model).__name__}")
     if count != int(count) or not 1 <= count <= MOST_LOBES:
@@ -59,6 +60,16 @@ def template_of(model: Any, count: int = 1, diffuse: bool | None = None, isotrop
     made = add(Lambertian(albedo=0.2), parts) if wants else parts
     children = list(made.children.values())
     return children[0] if len(children) == 1 else made
+
+
+def _named(model: str) -> Reflectance:
+    """What `brdf.load` makes of it. Raises UnknownNameError, which offers models where one name alone is given."""
+    try:
+        return load(model)
+    except UnknownNameError:
+        if set(model) & set("+*:"):
+            raise
+        raise UnknownNameError("model", model, models.names(), "see `brdf list models`") from None
 
 
 def _anisotropic(base: Model) -> Reflectance:
