@@ -102,6 +102,13 @@ def test_in_a_notebook_it_is_a_widget(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "export default" in shown._esm
 
 
+@pytest.mark.parametrize("running", [True, False])
+def test_marimo_says_whether_a_notebook_runs(running: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "marimo", types.SimpleNamespace(running_in_notebook=lambda: running))
+    monkeypatch.delitem(sys.modules, "IPython", raising=False)
+    assert opening.in_notebook() is running
+
+
 def test_a_terminal_with_ipython_is_no_notebook(monkeypatch: pytest.MonkeyPatch) -> None:
     for shell in (None, types.SimpleNamespace()):
         monkeypatch.setitem(sys.modules, "IPython", types.SimpleNamespace(get_ipython=lambda shell=shell: shell))

@@ -107,7 +107,10 @@ def picture_of(shown: Sequence[Reflectance], start: View) -> bytes:
 
 
 def in_notebook() -> bool:
-    """Whether what an expression gives is shown by a notebook."""
+    """Whether what an expression gives is shown by a notebook: Jupyter's or marimo's."""
+    marimo = sys.modules.get("marimo")
+    if marimo is not None and marimo.running_in_notebook():
+        return True
     if "IPython" not in sys.modules:
         return False
     from IPython import get_ipython
