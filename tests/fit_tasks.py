@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import time
 from pathlib import Path
 
 
@@ -24,3 +25,9 @@ def die_once(path: str) -> str:
 def die(number: int) -> str:
     os.kill(os.getpid(), signal.SIGKILL)
     return "never"
+
+
+def sleep_long(path: str) -> None:
+    """Writes this process's number to a file beside the others', and stays."""
+    Path(path).write_text(str(os.getpid()))
+    time.sleep(120)

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import csv
 import json
+import subprocess
+import sys
+import time
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 import brdf
+import fit_tasks
 from brdf.errors import FileError, MissingExtraError, ParameterError, UnknownFormatError
 from brdf.fit import batch as batch_module
 from brdf.fit import fit_many
@@ -108,6 +113,28 @@ def test_a_killed_process_loses_its_own_task_only_and_that_is_begun_again(tmp_pa
     assert dict(outcomes(die_once, paths, 2, None, 1)) == dict.fromkeys(paths, "done")
     found = dict(outcomes(die, [1, 2], 2, None, 1))
     assert all("its process died, twice" in str(v) for v in found.values())
+
+
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="processes are looked up in /proc, which Linux has")
+def test_no_process_outlives_the_one_that_is_killed(tmp_path: Path) -> None:
+    paths = [tmp_path / name for name in "ab"]
+    script = tmp_path / "many.py"
+    script.write_text(
+        f"import sys\nsys.path.insert(0, {str(Path(fit_tasks.__file__).parent)!r})\n"
+        "from brdf.fit.workers import outcomes\nfrom fit_tasks import sleep_long\n"
+        f"if __name__ == '__main__':\n    list(outcomes(sleep_long, {[*map(str, paths)]}, 2, None, 1))\n"
+    )
+    with subprocess.Popen([sys.executable, str(script)]) as parent:
+        until(lambda: all(path.exists() and path.read_text() for path in paths))
+        parent.kill()
+    until(lambda: not any(Path("/proc", path.read_text()).exists() for path in paths))
+
+
+def until(holds: Callable[[], bool]) -> None:
+    end = time.monotonic() + 60
+    while not holds():
+        assert time.monotonic() < end
+        time.sleep(0.05)
 
 
 def test_a_cluster_gives_the_same_fits(folder: Path, tmp_path: Path) -> None:
