@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 from ..color import xyz_to_rgb
 from ..container import replacing
 from ..errors import CorruptFileError
-from ..geometry.directions import from_spherical
 from ..reflectance import Reflectance
 from ..representations.adaptive import Adaptive
 from ..representations.scattered import Scattered
 from .angles import goniometer_pairs
 from .registry import Format
+from .rows import scattered
 from .text import Rows, lines, numbers
 
 Array = NDArray[np.float64]
@@ -46,11 +46,7 @@ def recognises(head: bytes, size: int) -> bool:
 def read(path: Path) -> Reflectance:
     """The file as a `Scattered`, read as isotropic. Raises CorruptFileError, which names the line."""
     wavelengths, angles, values = read_rows(path)
-    wi, wo = (from_spherical(angles[:, k], angles[:, k + 1]) for k in (0, 2))
-    try:
-        made = Scattered.from_samples(wi, wo, values, wavelengths)
-    except ValueError as error:
-        raise CorruptFileError(path, f"{error}.") from None
+    made = scattered(path, wavelengths, angles, values)
     return made.named(path.stem, f"ASTM E1392 file {path.name}, {len(values)} measurements")
 
 

@@ -13,10 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import CorruptFileError
-from ..geometry.directions import from_spherical
 from ..reflectance import Reflectance
-from ..representations.scattered import Scattered
 from .registry import Format
+from .rows import scattered
 from .text import Rows, lines, numbers
 
 MOST_WAVELENGTHS = 2000
@@ -38,11 +37,7 @@ def recognises(head: bytes, size: int) -> bool:
 def read(path: Path) -> Reflectance:
     """The file as a `Scattered`. Raises CorruptFileError, which names the line."""
     wavelengths, angles, values = read_rows(path)
-    wi, wo = (from_spherical(angles[:, k], angles[:, k + 1]) for k in (0, 2))
-    try:
-        made = Scattered.from_samples(wi, wo, values, wavelengths)
-    except ValueError as error:
-        raise CorruptFileError(path, f"{error}.") from None
+    made = scattered(path, wavelengths, angles, values)
     return made.named(path.stem, f"goniometer file {path.name}, {len(values)} measurements")
 
 
