@@ -20,6 +20,7 @@ from ....fit.parameters import with_defaults
 from ....geometry.directions import to_half_difference
 from ....metrics import METRICS, direction_pairs
 from ....reflectance import Reflectance
+from ....render.progress import Progress
 from .settings import Settings
 
 GRAZING = 80.0
@@ -95,14 +96,16 @@ def measured(weights: Mapping[str, Array], settings: Settings) -> list[Score]:
     names = chosen(weights, settings.materials)
     fitted = set(_spread(names, settings.fitted))
     scores = []
-    for name in names:
-        some = samples(weights, name, settings)
-        for published in materials.fits(name):
-            m = materials.get(name, published)
-            ours = None
-            if name in fitted:
-                ours = _errors(some, fit(some, with_defaults(m), budget=settings.starts).reflectance)
-            scores.append(Score(name, published, _errors(some, m), ours))
+    with Progress("published fits and ours", len(names), None) as bar:
+        for name in names:
+            some = samples(weights, name, settings)
+            for published in materials.fits(name):
+                m = materials.get(name, published)
+                ours = None
+                if name in fitted:
+                    ours = _errors(some, fit(some, with_defaults(m), budget=settings.starts).reflectance)
+                scores.append(Score(name, published, _errors(some, m), ours))
+            bar.step()
     return scores
 
 
