@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ..geometry.directions import from_spherical, normalized
 from ..metrics import sphere_lights, sphere_pairs
+from ..metrics.sphere import sphere_frames
 from ..reflectance import Reflectance
 from .equations import Equations, Normal
 from .losses import LOSSES
@@ -26,6 +27,8 @@ POINT_ANGLES = (0.0, 30.0, 60.0, 90.0, 120.0)
 """Degrees between viewer and light."""
 POINT_SIZE, STUDIO_SIZE = 32, 20
 """Pixels across."""
+RIM = 0.02
+"""Squared cosine between normal and view below which a pixel of the studio's sphere is left out."""
 STUDIO_SAMPLES = 128
 """Directions from which light of the studio arrives at each pixel."""
 STUDIO_LIGHTS = (((0.5, 0.6, 0.6), 40.0, 0.5), ((-0.8, 0.3, 0.5), 12.0, 0.3), ((0.0, -0.4, -0.9), 6.0, 0.2))
@@ -67,13 +70,8 @@ def pixels() -> Pixels:
 def _studio() -> tuple[Array, Array, NDArray[np.intp]]:
     """Lit pairs of a sphere in the studio, and where each pixel's begin."""
     light = np.concatenate([_lobe(*lamp) for lamp in STUDIO_LIGHTS])
-    axis = (2 * np.arange(STUDIO_SIZE) + 1) / STUDIO_SIZE - 1
-    x, y = (a.ravel() for a in np.meshgrid(axis, axis))
-    inside = x * x + y * y < 0.98
-    x, y = x[inside], y[inside]
-    normal = np.stack([x, y, np.sqrt(1 - x * x - y * y)], -1)
-    tangent = normalized(np.stack([normal[:, 2], 0 * x, -x], -1))
-    frame = np.stack([tangent, np.cross(normal, tangent), normal], 1)
+    frame = sphere_frames(STUDIO_SIZE)
+    frame = frame[frame[:, 2, 2] ** 2 > RIM]
     wi = np.einsum("pij,kj->pki", frame, light)
     lit = wi[..., 2] > 1e-3
     counts = lit.sum(1)
