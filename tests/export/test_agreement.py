@@ -10,8 +10,9 @@ import pytest
 
 import brdf
 from brdf import materials
+from brdf.formula.printers.shader import helpers
 from brdf.reflectance import Reflectance
-from cards import GLCard, WebCard
+from cards import HEADERS, GLCard, WebCard
 from every_kind import MODELS, TABLES
 from lobes import random_pairs
 
@@ -71,6 +72,29 @@ def test_hardware_filters_linear_tables_alone(filter: str, gl: GLCard, tmp_path:
     exact = gl.evaluate(shader, WI, WO, UV)
     shader.write_text("#define HARDWARE_FILTER\n" + shader.read_text())
     assert np.quantile(errors(gl.evaluate(shader, WI, WO, UV, linear=True), exact), 0.999) <= 1e-4
+
+
+@pytest.mark.parametrize("size", [(16384, 1), (1, 16383), (2048, 1, 1), (1, 2047, 1), (1, 1, 1999)])
+def test_texels_are_found_by_their_centres(size: tuple[int, ...], gl: GLCard) -> None:
+    axes, count = len(size), max(size)
+    place = ", ".join("index" if n == count else "0" for n in size)
+    texel = f"texel{axes}(t, ivec{axes}({place})).x"
+    main = f"uniform sampler{axes}D t;\nin int index;\nout float value;\nvoid main() {{ value = {texel}; }}\n"
+    with gl.context as context:
+        program = context.program("\n".join([HEADERS["330 core"], helpers("glsl", main), main]), varyings=["value"])
+        make = context.texture if axes == 2 else context.texture3d
+        texture = make(size, 1, np.arange(count, dtype="f4").tobytes(), dtype="f4")
+        texture.filter = context.NEAREST, context.NEAREST
+        texture.use(0)
+        program["t"].value = 0
+        out = context.buffer(reserve=4 * count)
+        given = context.buffer(np.arange(count, dtype="i4"))
+        array = context.vertex_array(program, [(given, "1i", "index")])
+        array.transform(out, context.POINTS, count)
+        found = np.frombuffer(out.read(), np.float32)
+        for thing in (array, given, out, texture, program):
+            thing.release()
+    np.testing.assert_array_equal(found, np.arange(count))
 
 
 def test_every_shipped_material_compiles_and_agrees(gl: GLCard, tmp_path: Path) -> None:

@@ -75,9 +75,17 @@ vec3 position3(sampler3D t, vec3 u) {
     return clamp(u.zyx * size - 0.5, vec3(0.0), size - 1.0);
 }
 
-vec4 nearest2(sampler2D t, vec2 u) { return texelFetch(t, ivec2(position2(t, u) + 0.5), 0); }
+// Texel i by its centre, of a texture with the filter NEAREST. With texelFetch, for which llvmpipe looks up the mip
+// level of every pixel, frames of tables took a fifth longer.
+vec4 texel2(sampler2D t, ivec2 i) { return textureLod(t, (vec2(i) + 0.5) / vec2(textureSize(t, 0)), 0.0); }
 
-vec4 nearest3(sampler3D t, vec3 u) { return texelFetch(t, ivec3(position3(t, u) + 0.5), 0); }
+// Texel i by its centre, of a texture with the filter NEAREST. With texelFetch, for which llvmpipe looks up the mip
+// level of every pixel, frames of tables took a fifth longer.
+vec4 texel3(sampler3D t, ivec3 i) { return textureLod(t, (vec3(i) + 0.5) / vec3(textureSize(t, 0)), 0.0); }
+
+vec4 nearest2(sampler2D t, vec2 u) { return texel2(t, ivec2(position2(t, u) + 0.5)); }
+
+vec4 nearest3(sampler3D t, vec3 u) { return texel3(t, ivec3(position3(t, u) + 0.5)); }
 
 // In single precision, of any format; HARDWARE_FILTER leaves it to the hardware: faster and, on most, coarser.
 vec4 linear2(sampler2D t, vec2 u) {
@@ -87,8 +95,8 @@ vec4 linear2(sampler2D t, vec2 u) {
     vec2 x = position2(t, u);
     ivec2 last = textureSize(t, 0) - 1, i = min(ivec2(x), max(last - 1, 0)), j = min(i + 1, last);
     vec2 f = x - vec2(i);
-    return mix(mix(texelFetch(t, i, 0), texelFetch(t, ivec2(j.x, i.y), 0), f.x),
-               mix(texelFetch(t, ivec2(i.x, j.y), 0), texelFetch(t, j, 0), f.x), f.y);
+    return mix(mix(texel2(t, i), texel2(t, ivec2(j.x, i.y)), f.x),
+               mix(texel2(t, ivec2(i.x, j.y)), texel2(t, j), f.x), f.y);
 #endif
 }
 
@@ -100,10 +108,10 @@ vec4 linear3(sampler3D t, vec3 u) {
     vec3 x = position3(t, u);
     ivec3 last = textureSize(t, 0) - 1, i = min(ivec3(x), max(last - 1, 0)), j = min(i + 1, last);
     vec3 f = x - vec3(i);
-    vec4 near = mix(mix(texelFetch(t, i, 0), texelFetch(t, ivec3(j.x, i.yz), 0), f.x),
-                    mix(texelFetch(t, ivec3(i.x, j.y, i.z), 0), texelFetch(t, ivec3(j.xy, i.z), 0), f.x), f.y);
-    vec4 far = mix(mix(texelFetch(t, ivec3(i.xy, j.z), 0), texelFetch(t, ivec3(j.x, i.y, j.z), 0), f.x),
-                   mix(texelFetch(t, ivec3(i.x, j.yz), 0), texelFetch(t, j, 0), f.x), f.y);
+    vec4 near = mix(mix(texel3(t, i), texel3(t, ivec3(j.x, i.yz)), f.x),
+                    mix(texel3(t, ivec3(i.x, j.y, i.z)), texel3(t, ivec3(j.xy, i.z)), f.x), f.y);
+    vec4 far = mix(mix(texel3(t, ivec3(i.xy, j.z)), texel3(t, ivec3(j.x, i.y, j.z)), f.x),
+                   mix(texel3(t, ivec3(i.x, j.yz)), texel3(t, j), f.x), f.y);
     return mix(near, far, f.z);
 #endif
 }
@@ -129,7 +137,7 @@ vec4 cubic2(sampler2D t, ivec2 i, vec4 x_weights, vec4 y_weights) {
     for (int y = 0; y < 4; y++)
         for (int x = 0; x < 4; x++)
             sum += x_weights[x] * y_weights[y]
-                * texelFetch(t, ivec2(mirrored(i.x + x - 1, size.x), mirrored(i.y + y - 1, size.y)), 0);
+                * texel2(t, ivec2(mirrored(i.x + x - 1, size.x), mirrored(i.y + y - 1, size.y)));
     return sum;
 }
 
@@ -140,8 +148,8 @@ vec4 cubic3(sampler3D t, ivec3 i, vec4 x_weights, vec4 y_weights, vec4 z_weights
         for (int y = 0; y < 4; y++)
             for (int x = 0; x < 4; x++)
                 sum += x_weights[x] * y_weights[y] * z_weights[z]
-                    * texelFetch(t, ivec3(mirrored(i.x + x - 1, size.x), mirrored(i.y + y - 1, size.y),
-                                          mirrored(i.z + z - 1, size.z)), 0);
+                    * texel3(t, ivec3(mirrored(i.x + x - 1, size.x), mirrored(i.y + y - 1, size.y),
+                                       mirrored(i.z + z - 1, size.z)));
     return sum;
 }
 
