@@ -14,8 +14,9 @@ from brdf.errors import BrdfError, ParameterError, ReflectanceError, UnknownName
 from brdf.fit import LOSSES, Samples, data_of, samples_of
 from brdf.fit.losses import LOSSES as SCALES
 from brdf.fit.multistart import stratified
+from brdf.fit.template import template_of
 from brdf.metrics import METRICS
-from brdf.models import GGX, BlinnPhong, Lambertian, SmoothDielectric, Ward
+from brdf.models import GGX, BlinnPhong, Lambertian, OpenPBR, SmoothDielectric, Ward
 from helpers import random_directions
 
 TRUTH = (Lambertian(albedo=(0.2, 0.3, 0.1)) + Ward(ks=(0.3, 0.2, 0.1), alpha=0.15)).named("truth")
@@ -106,6 +107,26 @@ def test_a_normalisation_beside_a_scale_is_held() -> None:
     r = brdf.fit(brdf.load("gold-metallic-paint"), brdf.models.SGD, budget="quick")
     assert {e.name for e in r.parameters if e.state == "held"} == {"K_r", "K_g", "K_b"}
     assert r.errors["cosine-weighted L2"] < 0.01
+
+
+def test_a_weight_beside_a_colour_is_held() -> None:
+    """Unless the colour is held already: then nothing stands for the weight."""
+    truth = OpenPBR(base_color=(0.6, 0.3, 0.1), specular_roughness=0.4)
+    fixed = ("coat_", "fuzz_", "specular_", "base_metalness", "base_diffuse")
+    names = [name for name in truth.values if name.startswith(fixed)]
+    r = brdf.fit(truth, truth.replaced(base_color=0.8), fixed=names, budget=1)
+    values = {e.name: e for e in r.parameters}
+    assert values["base_weight"].state == "held"
+    np.testing.assert_allclose([values[f"base_color_{c}"].value for c in "rgb"], truth.base_color, atol=1e-3)
+    r = brdf.fit(truth, truth.replaced(base_weight=0.5), fixed=[*names, "base_color"], budget=1)
+    weight = next(e for e in r.parameters if e.name == "base_weight")
+    assert weight.state == "at bound"
+    assert abs(weight.value - 1) < 1e-3
+
+
+def test_where_a_search_starts_does_not_decide_what_is_fitted() -> None:
+    """A metal has no diffuse part, the model has."""
+    assert template_of(OpenPBR(base_metalness=1.0)).values.keys() == OpenPBR().values.keys()
 
 
 def test_what_the_data_do_not_show_is_said() -> None:

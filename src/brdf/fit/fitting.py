@@ -122,7 +122,7 @@ class _Fit:
         # Colours are solved for in a quadratic loss with the slope of the wanted one at the data.
         quadratic = few if self.loss.quadratic else _linearised(few, self.loss)
         equations = Equations(self.template, quadratic, LOSSES["l2"])
-        self.free &= ~_interchangeable(self.template, few, self.components, self.linear & self.free, self.seed)
+        self.free &= ~_interchangeable(self.template, few, self.linear, self.free, self.seed)
         problem = Problem(self.components, self.free, self.linear & self.free)
         points = start_points(self.components, self.free, self.starts, self.seed)
         self.say(f"{name}: {len(points)} starts")
@@ -213,26 +213,28 @@ def _linearised(samples: Samples, loss: Loss) -> Samples:
 
 
 def _interchangeable(
-    m: Reflectance, samples: Samples, all_components: list[Component], linear: NDArray[np.bool_], seed: int
+    m: Reflectance, samples: Samples, linear: NDArray[np.bool_], free: NDArray[np.bool_], seed: int
 ) -> NDArray[np.bool_]:
-    """(P,) numbers that do nothing that another does not do as well, wherever one looks: they are held.
+    """(P,) free numbers that do nothing, in any channel, that others do not do as well, wherever one looks.
 
-    Of a linear and another the other is held (a normalisation beside a scale), else the later one.
+    They are held: first what is not linear (a normalisation beside a scale), then what acts on most channels (a weight
+    beside a colour), then the later one.
     """
     part = samples[np.linspace(0, len(samples) - 1, min(PROBES, len(samples))).astype(np.intp)]
     equations = Equations(m, part, LOSSES["l2"])
-    everything = np.ones(len(all_components), np.bool_)
-    held = np.zeros(len(all_components), np.bool_)
-    seen, alike = np.zeros((2, len(held), len(held)), np.intp)
-    for point in start_points(all_components, everything, 8, seed):
+    seen, alike = np.zeros((2, 3, len(free), len(free)), np.intp)
+    for point in start_points(components(m), np.ones_like(free), 8, seed):
         for channel, rows in enumerate(equations.rows_at(point)):
             ids, J = np.array(equations.active(channel)), rows[:-1]
             length = np.linalg.norm(J, axis=1)
-            told = np.isfinite(length) & (length > 0)
+            told = free[ids] & np.isfinite(length) & (length > 0)
             ids, J = ids[told], J[told] / length[told, None]
-            seen[np.ix_(ids, ids)] += 1
-            alike[np.ix_(ids, ids)] += np.abs(J @ J.T) > 1 - 1e-12
-    for a, b in zip(*np.nonzero(np.triu((seen > 1) & (alike == seen), 1)), strict=True):
-        if not held[a] and not held[b]:
-            held[a if linear[b] and not linear[a] else b] = True
+            seen[(channel, *np.ix_(ids, ids))] += 1
+            alike[(channel, *np.ix_(ids, ids))] += np.abs(J @ J.T) > 1 - 1e-12
+    stands_for = (seen > 1) & (alike == seen) & ~np.eye(len(free), dtype=np.bool_)  # (channels, P, P)
+    acts = np.diagonal(seen, axis1=1, axis2=2) > 1
+    held = np.zeros_like(free)
+    for k in sorted(range(len(free)), key=lambda k: (linear[k], -acts[:, k].sum(), -k)):
+        others = (stands_for[:, k] & ~held).any(1)
+        held[k] = acts[:, k].any() and others[acts[:, k]].all()
     return held

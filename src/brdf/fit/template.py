@@ -19,6 +19,7 @@ from ..metrics import direction_pairs
 from ..models import Model
 from ..models.lambertian import Lambertian
 from ..reflectance import Reflectance
+from .parameters import with_defaults
 
 MOST_LOBES = 3
 
@@ -52,10 +53,11 @@ def template_of(model: Any, count: int = 1, diffuse: bool | None = None, isotrop
         return base
     if not isotropic:
         base = _anisotropic(base)
-    has_diffuse = _has_diffuse(base)
-    if has_diffuse and (count == 1 or not _has_highlight(base)):
+    usual = with_defaults(base)  # what a model has does not depend on where the search starts
+    has_diffuse = _has_diffuse(usual)
+    if has_diffuse and (count == 1 or not _has_highlight(usual)):
         return base
-    parts = Sum([base] * int(count)) if _has_scale(base) else lobes(base, int(count))
+    parts = Sum([base] * int(count)) if _has_scale(usual) else lobes(base, int(count))
     wants = diffuse if diffuse is not None else not has_diffuse
     made = add(Lambertian(albedo=0.2), parts) if wants else parts
     children = list(made.children.values())
