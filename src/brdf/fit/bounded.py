@@ -30,7 +30,8 @@ def minimise_quadratic(hessian: Array, gradient: Array, low: Array, high: Array)
         reach = np.full(len(g), np.inf)
         towards = free & (step != 0)
         limit = np.where(step > 0, high, low)
-        reach[towards] = (limit[towards] - s[towards]) / step[towards]
+        with np.errstate(over="ignore"):  # a step so short that it never gets there
+            reach[towards] = (limit[towards] - s[towards]) / step[towards]
         share = min(1.0, float(reach.min(initial=np.inf)))
         s = np.clip(s + share * step, low, high)
         if share < 1:

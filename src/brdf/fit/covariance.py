@@ -63,7 +63,9 @@ def certainty(
         deviation = np.sqrt(np.maximum(np.diag(covariance), 0))
         blind = (vectors[:, ~seen] ** 2).sum(1) > 0.01
         errors[known] = np.where(blind, np.inf, deviation * scale)
-        correlation[np.ix_(known, known)] = covariance / np.maximum(np.outer(deviation, deviation), 1e-300)
+        product = np.outer(deviation, deviation)
+        none = np.zeros_like(product)
+        correlation[np.ix_(known, known)] = np.divide(covariance, product, out=none, where=product > 1e-300)
     unseen = np.isinf(errors) & ~np.isin(np.arange(len(numbers)), known)
     warnings += [f"{components[k].name} is not determined by the data" for k in np.flatnonzero(unseen)]
     if len(known):
