@@ -182,7 +182,15 @@ def test_the_principled_fit_finds_itself():
     """A model that is one already is kept; an OpenPBR of the same parameters looks alike."""
     assert principled.principled(DISNEY) is DISNEY
     plain = Disney(base_color=(0.3, 0.2, 0.1), roughness=0.5, masking="2014")
-    assert brdf.compare(plain, principled.open_pbr(plain)).psnr_mean > 25
+    assert brdf.compare(plain, principled.carried_over(plain)).psnr_mean > 25
+
+
+def test_openpbr_is_fitted_directly(red):
+    """Its own fit is nearer than Disney's parameters carried over."""
+    carried, fitted = principled.carried_over(principled.principled(red)), principled.open_pbr(red)
+    errors = [brdf.compare(red, m).metrics["cosine-weighted L2"] for m in (carried, fitted)]
+    assert errors[1] < 0.8 * errors[0]
+    assert fitted.coat_weight == fitted.fuzz_weight == 0
 
 
 @pytest.mark.parametrize("extension", [".gltf", ".mtlx", ".pbrt", ".py", ".xml"])

@@ -8,17 +8,16 @@ from pathlib import Path
 import numpy as np
 
 from ..container import replacing
-from ..models import get as model
 from ..reflectance import Reflectance
-from .principled import open_pbr, principled
+from .principled import open_pbr
 from .target import Target, Written, identifier
 
 VERSION = "1.39"
 
 
 def write(m: Reflectance, path: Path) -> Written:
-    """An `open_pbr_surface` and its material; `m` itself where it is OpenPBR, else by a principled fit."""
-    surface = m if isinstance(m, model("OpenPBR")) else open_pbr(principled(m))
+    """An `open_pbr_surface` and its material; `m` itself where it is OpenPBR, else by a fit."""
+    surface = open_pbr(m)
     name = identifier(m)
     root = ET.Element("materialx", version=VERSION, colorspace="lin_rec709")
     shader = ET.SubElement(root, "open_pbr_surface", name=f"{name}_surface", type="surfaceshader")

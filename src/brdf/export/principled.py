@@ -40,7 +40,22 @@ def index_of(specular: float) -> float:
     return (1 + root) / (1 - root)
 
 
-def open_pbr(disney: Reflectance) -> Reflectance:
+def open_pbr(m: Reflectance) -> Reflectance:
+    """The OpenPBR surface without coat and fuzz nearest to `m`; `m` itself where it is one.
+
+    The fit starts from Disney's parameters. Raises ReflectanceError as `principled`.
+    """
+    _require_fittable(m)
+    if isinstance(m, model("OpenPBR")):
+        return m
+    start = carried_over(principled(m))
+    held = [name for name in start.values if name.startswith(("coat_", "fuzz_"))]
+    if m.isotropic:
+        held.append("specular_roughness_anisotropy")
+    return fit(m, start, fixed=held, budget=1, diffuse=False).reflectance
+
+
+def carried_over(disney: Reflectance) -> Reflectance:
     """Disney's parameters in OpenPBR's: the same widths, index, metalness and colour."""
     row = disney.values
     kept = 1 - 0.9 * float(row["anisotropic"])  # alpha_y / alpha_x in Disney's model

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ..formula import Scalar, Vec, abs, dot, maximum, minimum, mix, normalize, pow, sqrt
 from ..geometry.quadrature import gauss_legendre
@@ -108,15 +112,10 @@ class OpenPBR(Model):
 
     def derived_textures(self) -> dict[str, Any]:
         alpha_x, alpha_y = self.specular_widths()
-        alpha, eta = float(sqrt(alpha_x * alpha_y)), self.specular_eta()
-
-        def white(index: Scalar, width: float) -> Any:
-            return lambda wi, wo: dielectric(dot(wi, normalize(wi + wo)), index) * ggx_lobe(wi, wo, width, width)
-
         return {
-            "specular_albedo": albedo_table(white(eta, alpha))[:, 0],
-            "coat_albedo": albedo_table(white(self.coat_ior, float(self.coat_widths()[0])))[:, 0],
-            "fuzz_albedo": albedo_table(lambda wi, wo: charlie(wi, wo, self.fuzz_roughness))[:, 0],
+            "specular_albedo": _white_albedo(float(self.specular_eta()), float(sqrt(alpha_x * alpha_y))),
+            "coat_albedo": _white_albedo(float(self.coat_ior), float(self.coat_widths()[0])),
+            "fuzz_albedo": _fuzz_albedo(float(self.fuzz_roughness)),
         }
 
     def _make_sampler(self) -> Sampler:
@@ -127,6 +126,19 @@ class OpenPBR(Model):
             GGXSampler(*map(float, self.coat_widths())),
         ]
         return MixtureSampler(samplers, [1 - 0.8 * self.base_metalness, 0.5, 0.3 * self.coat_weight])
+
+
+@lru_cache(maxsize=64)
+def _white_albedo(eta: float, alpha: float) -> NDArray[np.float32]:
+    """E of a white dielectric lobe, (64, 1)."""
+    return albedo_table(
+        lambda wi, wo: dielectric(dot(wi, normalize(wi + wo)), eta) * ggx_lobe(wi, wo, alpha, alpha)
+    )[:, 0]
+
+
+@lru_cache(maxsize=64)
+def _fuzz_albedo(roughness: float) -> NDArray[np.float32]:
+    return albedo_table(lambda wi, wo: charlie(wi, wo, roughness))[:, 0]
 
 
 def _f82_tint(cosine: Scalar, F0: Vec, tint: Vec) -> Vec:
