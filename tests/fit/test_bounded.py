@@ -32,3 +32,11 @@ def test_nothing_moves_along_what_has_no_curvature() -> None:
     step = minimise_quadratic(H, np.array([-2.0, -2.0]), np.full(2, -5.0), np.full(2, 10.0))
     np.testing.assert_allclose(step.sum(), 2.0)
     assert abs(step[0] - step[1]) < 1e-6
+
+
+def test_what_is_silent_stays_and_overflows_nothing() -> None:
+    """As a Schur complement leaves it: no curvature but for rounding, and a coupling."""
+    H = np.array([[1e12, 1e-2], [1e-2, 1e-311]])
+    with np.errstate(over="raise", invalid="raise", divide="raise"):
+        step = minimise_quadratic(H, np.array([-1e12, 0.0]), np.full(2, -2.0), np.full(2, 2.0))
+    np.testing.assert_allclose(step, [1.0, 0.0], atol=1e-9)

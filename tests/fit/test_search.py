@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.optimize import differential_evolution, least_squares, nnls
 
 import brdf
-from brdf.fit.equations import Equations
+from brdf.fit.equations import Equations, Normal
 from brdf.fit.levenberg import Problem, advance, begin
 from brdf.fit.losses import LOSSES
 from brdf.fit.multistart import energy_of, run_rounds, same, start_points, stratified
@@ -58,6 +59,20 @@ def test_the_minimum_is_that_of_scipy(loss: str) -> None:
     )
     assert cost == pytest.approx(expected.cost, rel=1e-6)
     np.testing.assert_allclose(numbers, expected.x, rtol=2e-3, atol=1e-4)
+
+
+def test_a_search_does_not_go_where_derivatives_overflow() -> None:
+    """Their equations there are those of a steeper and steeper wall; the search turns back before it."""
+    problem = replace(problem_of(BlinnPhong(), linear=False), free=np.array([False, False, False, True]))
+    start = np.array([c.default for c in problem.components])
+    wall = 2 * start[3]
+
+    def evaluate(numbers: np.ndarray) -> Normal:
+        x, steep = numbers[3], np.inf if numbers[3] > wall else 1e-6
+        return Normal(1 / x, np.array([0, 0, 0, -1 / x**2]), np.diag([0, 0, 0, steep]))
+
+    search = advance(problem, evaluate, begin(problem, evaluate, start), 50)
+    assert start[3] < search.numbers[3] <= wall
 
 
 def test_the_minimum_is_that_of_a_global_optimiser() -> None:

@@ -17,8 +17,10 @@ def minimise_quadratic(hessian: Array, gradient: Array, low: Array, high: Array)
     An active-set method: from the best feasible point so far towards the free minimum, stopping at the first bound;
     bounds are let go one at a time where the slope points inwards. Exact to rounding; a few steps for a few unknowns.
     """
-    scale = 1 / np.sqrt(np.maximum(np.diag(hessian), 1e-300))
-    H, g = hessian * np.outer(scale, scale), gradient * scale
+    diagonal = np.diag(hessian)
+    told = diagonal > max(SINGULAR**3 * diagonal.max(initial=0), 1e-300)  # of the others there is rounding alone
+    scale = 1 / np.sqrt(np.where(told, diagonal, 1.0))
+    H, g = hessian * np.outer(scale * told, scale * told), gradient * scale * told
     given, (low, high) = (low, high), (low / scale, high / scale)
     s = np.clip(np.zeros(len(g)), low, high)
     free = (low < s) & (s < high)

@@ -40,6 +40,12 @@ class Problem:
         """Numbers that are searched for by steps."""
         return np.flatnonzero(self.free & ~self.linear)
 
+    def is_finite(self, normal: Normal) -> bool:
+        """Whether a search can go on from there: derivatives overflow where values do not."""
+        free = np.flatnonzero(self.free)
+        derivatives = normal.gradient[free], normal.hessian[np.ix_(free, free)]
+        return all(bool(np.isfinite(x).all()) for x in (normal.cost, *derivatives))
+
     @property
     def solved(self) -> NDArray[np.intp]:
         """Numbers that are solved for."""
@@ -68,8 +74,7 @@ Evaluate = Callable[[Array], Normal]
 def begin(problem: Problem, evaluate: Evaluate, numbers: Array) -> Search:
     """A search from these numbers, the linear ones put at their best."""
     numbers, normal = _projected(problem, evaluate, np.array(numbers, np.float64))
-    finite = np.isfinite(normal.cost)
-    return Search(numbers, normal, done=not finite or not len(problem.searched))
+    return Search(numbers, normal, done=not problem.is_finite(normal) or not len(problem.searched))
 
 
 def advance(problem: Problem, evaluate: Evaluate, search: Search, steps: int, tolerance: float = NOISE) -> Search:
@@ -129,9 +134,6 @@ def _step(
     diagonal = np.maximum(np.diag(hessian)[moved], 1e-300)
     damped = S + search.damping * np.diag(np.maximum(np.diag(S), 1e-9 * diagonal))
     room_low, room_high = np.maximum(low - q, -longest)[moved], np.minimum(high - q, longest)[moved]
-    if not np.isfinite(damped).all() or not np.isfinite(g).all():
-        search.done = True
-        return
     step = minimise_quadratic(damped, g, room_low, room_high)
     promised = -float(g @ step + 0.5 * step @ S @ step)
     trial = q.copy()
@@ -143,7 +145,7 @@ def _step(
         values[solved] = np.clip(numbers[solved] - coupling @ step, low[solved], high[solved])
     new_numbers, new = _projected(problem, evaluate, values)
     last = promised <= tolerance * search.cost
-    if np.isfinite(new.cost) and new.cost <= search.cost * (1 + (NOISE if last else 0)):
+    if problem.is_finite(new) and new.cost <= search.cost * (1 + (NOISE if last else 0)):
         search.numbers, search.normal = new_numbers, new
         search.damping = max(search.damping * LOWERED, LEAST_DAMPING)
         # Where damping or a bound kept the step short, a small promise does not mean that the minimum is near.
@@ -157,7 +159,7 @@ def _projected(problem: Problem, evaluate: Evaluate, numbers: Array) -> tuple[Ar
     """The numbers with the linear ones at their best for the others, and the equations there."""
     normal = evaluate(numbers)
     solved = problem.solved
-    if not len(solved) or not np.isfinite(normal.cost) or not np.isfinite(normal.hessian).all():
+    if not len(solved) or not problem.is_finite(normal):
         return numbers, normal
     low = np.array([problem.components[k].low for k in solved])
     high = np.array([problem.components[k].high for k in solved])
