@@ -131,9 +131,11 @@ class OpenPBR(Model):
 @lru_cache(maxsize=64)
 def _white_albedo(eta: float, alpha: float) -> NDArray[np.float32]:
     """E of a white dielectric lobe, (64, 1)."""
-    return albedo_table(
-        lambda wi, wo: dielectric(dot(wi, normalize(wi + wo)), eta) * ggx_lobe(wi, wo, alpha, alpha)
-    )[:, 0]
+
+    def lobe(wi: Vec, wo: Vec) -> Scalar:
+        return dielectric(dot(wi, normalize(wi + wo)), eta) * ggx_lobe(wi, wo, alpha, alpha)
+
+    return albedo_table(lobe)[:, 0]
 
 
 @lru_cache(maxsize=64)

@@ -37,5 +37,12 @@ def run(report: Report, settings: Settings) -> None:
     report.section("Which model is nearest")
     tables.winners(report, scores)
     tables.materials(report, scores)
+    report.section(
+        "What people see",
+        "Mean perceived distances between renderings of a material and of its fit, from the judgements of Lavoué and "
+        "others (2021) on 69 materials, beside the means of the metrics. The guide to comparing has them judgement by "
+        "judgement.",
+    )
+    tables.people(report, scores)
     report.section("Conclusions")
     tables.claims(report, scores)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import functools
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,10 +17,11 @@ from ....fit import Samples, fit
 from ....fit.losses import LOSSES
 from ....fit.multistart import stratified
 from ....fit.parameters import with_defaults
-from ....geometry.directions import to_half_difference
-from ....metrics import METRICS, direction_pairs
+from ....metrics import METRICS, direction_pairs, relative_rmse_of
+from ....metrics.surroundings import lit_from_all_around
 from ....reflectance import Reflectance
 from ....render.progress import Progress
+from ....representations.neural import SHAPES, NeuralBRDF
 from .settings import Settings
 
 GRAZING = 80.0
@@ -28,6 +29,11 @@ GRAZING = 80.0
 
 METRIC = "cosine-weighted L2"
 """The paper's."""
+
+AROUND = "lit all around"
+"""The one that `brdf compare` ranks by: relative RMSE of pictures of a sphere, `brdf.metrics.surroundings`."""
+
+EVERY = (*METRICS, AROUND)
 
 WEIGHTS = "merl/merl_nbrdf_weights.npz"
 """Below the folder that BRDF_DATA names."""
@@ -44,7 +50,7 @@ class Score:
     material: str
     fit: str
     published: dict[str, float]
-    """By metric."""
+    """By metric, see `EVERY`."""
     ours: dict[str, float] | None
     """None where it was not fitted."""
 
@@ -58,19 +64,10 @@ def network_weights() -> Mapping[str, Array] | None:
         return dict(file)
 
 
-def network(weights: Mapping[str, Array], name: str, wi: Array, wo: Array) -> Array:
-    """(N, 3) values [1/sr] of a material's network, whose inputs are half and difference vector at phi_h = 0.
-
-    Reference: Sztrajman2021.
-    """
-    angles = to_half_difference(wi, wo)
-    phi_d = np.mod(angles.phi_d, math.pi)  # trained on MERL's half turn
-    sine = np.sin(angles.theta_d)
-    half = [np.sin(angles.theta_h), np.zeros(len(wi)), np.cos(angles.theta_h)]
-    x = np.stack([*half, sine * np.cos(phi_d), sine * np.sin(phi_d), np.cos(angles.theta_d)], -1)
-    for layer in (1, 2):
-        x = np.maximum(x @ weights[f"{name}/fc{layer}"] + weights[f"{name}/b{layer}"], 0)
-    return np.asarray(np.maximum(np.expm1(x @ weights[f"{name}/fc3"] + weights[f"{name}/b3"]), 0))
+def network(weights: Mapping[str, Array], name: str) -> NeuralBRDF:
+    """A material's network."""
+    made = NeuralBRDF({layer: weights[f"{name}/{layer}"] for layer in SHAPES})
+    return made.named(name, "NBRDF network")
 
 
 def chosen(weights: Mapping[str, Array], count: int | None) -> list[str]:
@@ -84,10 +81,10 @@ def _spread(names: list[str], count: int | None) -> list[str]:
     return [names[i * len(names) // count] for i in range(count)]
 
 
-def samples(weights: Mapping[str, Array], name: str, settings: Settings) -> Samples:
+def samples(m: Reflectance, settings: Settings) -> Samples:
     """A material's stand-in at stratified pairs."""
     wi, wo, weight = direction_pairs(polar=64, difference=32, azimuth=48)
-    everything = Samples.of(wi, wo, network(weights, name, wi, wo), weight, GRAZING, name, "NBRDF network")
+    everything = Samples.of(wi, wo, m(wi, wo), weight, GRAZING, m.name, m.source)
     return stratified(everything, LOSSES["l2"], settings.pairs, SEED)
 
 
@@ -98,19 +95,22 @@ def measured(weights: Mapping[str, Array], settings: Settings) -> list[Score]:
     scores = []
     with Progress("published fits and ours", len(names), None) as bar:
         for name in names:
-            some = samples(weights, name, settings)
+            stand_in = network(weights, name)
+            some = samples(stand_in, settings)
+            picture = lit_from_all_around(stand_in, settings.pixels)
             for published in materials.fits(name):
-                m = materials.get(name, published)
-                ours = None
-                if name in fitted:
-                    ours = _errors(some, fit(some, with_defaults(m), budget=settings.starts).reflectance)
-                scores.append(Score(name, published, _errors(some, m), ours))
+                row = materials.get(name, published)
+                own = fit(some, with_defaults(row), budget=settings.starts).reflectance if name in fitted else None
+                errors = functools.partial(_errors, some, picture, settings.pixels)
+                scores.append(Score(name, published, errors(row), None if own is None else errors(own)))
             bar.step()
     return scores
 
 
-def _errors(some: Samples, m: Reflectance) -> dict[str, float]:
+def _errors(some: Samples, picture: Array, pixels: int, m: Reflectance) -> dict[str, float]:
+    """By metric; `picture` is the stand-in's, so many `pixels` across."""
     cosine = some.wi[:, 2:].astype(np.float64)
     weight = some.weight.mean(1)
     values = some.values * cosine, np.asarray(m(some.wi, some.wo), np.float64) * cosine
-    return {name: metric(*values, weight / weight.sum()) for name, metric in METRICS.items()}
+    errors = {name: metric(*values, weight / weight.sum()) for name, metric in METRICS.items()}
+    return errors | {AROUND: relative_rmse_of(picture, lit_from_all_around(m, pixels))}

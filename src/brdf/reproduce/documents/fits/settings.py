@@ -16,6 +16,8 @@ class Settings:
     pairs: int = 20_000
     """Pairs of directions, stratified."""
     starts: int = 16
+    pixels: int = 28
+    """Across the picture of a sphere lit from all around."""
 
 
-SETTINGS = {"full": Settings(), "quick": Settings(materials=12, fitted=1, pairs=3000, starts=2)}
+SETTINGS = {"full": Settings(), "quick": Settings(materials=12, fitted=1, pairs=3000, starts=2, pixels=16)}
