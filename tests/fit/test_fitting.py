@@ -77,6 +77,7 @@ def test_bic_chooses_the_number_of_lobes() -> None:
     assert r.lobes == 2
     assert sorted(e.value for e in r.parameters if e.name.endswith("alpha")) == pytest.approx([0.08, 0.4], rel=0.1)
     assert brdf.fit(noisy(1), Ward, lobes="auto", budget="quick").lobes == 1
+    assert brdf.fit(noisy(1), "OrenNayar", lobes="auto", budget="quick").lobes == 1
 
 
 def test_the_same_seed_gives_the_same_numbers() -> None:
@@ -218,6 +219,7 @@ MISTAKES = [
     (TRUTH, {"model": Ward, "metric": "image", "robust": "huber"}, ParameterError, "no robust form"),
     (TRUTH, {"model": 3}, ParameterError, "a model, its class or its name"),
     (TRUTH, {"model": TRUTH, "lobes": 2}, ParameterError, "lobes are of one model"),
+    (TRUTH, {"model": "Disney", "lobes": 2}, ParameterError, "Disney is no lobe but a whole or a diffuse material"),
     (SmoothDielectric(), {"model": Ward}, ReflectanceError, "transmits"),
     (TRUTH, {"model": SmoothDielectric}, ReflectanceError, "no formula of reflection"),
     (3, {"model": Ward}, ParameterError, "a reflectance or Samples, got int"),

@@ -23,7 +23,7 @@ from .pictures import PictureEquations, radiances
 from .result import IMAGE, Estimate, FitResult, errors_of, residual_map
 from .robust import MOST, refine, require_known
 from .samples import GRAZING, Samples
-from .template import MOST_LOBES, template_of
+from .template import MOST_LOBES, most_lobes, template_of
 
 Array = NDArray[Any]
 
@@ -75,7 +75,7 @@ def fit(
         raise ParameterError("the image metric needs a reflectance to make pictures of, and has no robust form")
     isotropic = reflectance is None or reflectance.isotropic
     pictures = radiances(reflectance) if reflectance is not None else None
-    counts = range(1, MOST_LOBES + 1) if lobes == "auto" else [lobes]
+    counts = range(1, most_lobes(model) + 1) if lobes == "auto" else [lobes]
     results = []
     for count in counts:
         if not isinstance(count, int):

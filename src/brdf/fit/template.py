@@ -35,14 +35,7 @@ def template_of(model: Any, count: int = 1, diffuse: bool | None = None, isotrop
     one. `diffuse`: whether to add the Lambertian part; by default where the model has none. A sum of several models is
     taken as it stands. Raises ParameterError, UnknownNameError.
     """
-    if isinstance(model, type) and issubclass(model, Reflectance):
-        base: Reflectance = model()
-    elif isinstance(model, Reflectance):
-        base = model
-    elif isinstance(model, str):
-        base = _named(model)
-    else:
-        raise ParameterError(f"a fit needs a model, its class or its name, got {type(model).__name__}")
+    base = _resolved(model)
     if count != int(count) or not 1 <= count <= MOST_LOBES:
         raise ParameterError(f"a fit has 1 to {MOST_LOBES} lobes, got {count}")
     if not base.values:
@@ -55,13 +48,37 @@ def template_of(model: Any, count: int = 1, diffuse: bool | None = None, isotrop
         base = _anisotropic(base)
     usual = with_defaults(base)  # what a model has does not depend on where the search starts
     has_diffuse = _has_diffuse(usual)
-    if has_diffuse and (count == 1 or not _has_highlight(usual)):
+    if has_diffuse and count == 1:
         return base
+    if has_diffuse and not _has_highlight(usual):
+        raise ParameterError(f"{type(base).__name__} is no lobe but a whole or a diffuse material: fit one of it")
     parts = Sum([base] * int(count)) if _has_scale(usual) else lobes(base, int(count))
     wants = diffuse if diffuse is not None else not has_diffuse
     made = add(Lambertian(albedo=0.2), parts) if wants else parts
     children = list(made.children.values())
     return children[0] if len(children) == 1 else made
+
+
+def most_lobes(model: Any) -> int:
+    """How many lobes of a model can be fitted: 3, and 1 of a sum and of what is no lobe. Raises as `template_of`."""
+    base = _resolved(model)
+    if not isinstance(base, Model):
+        return 1
+    usual = with_defaults(base)
+    return 1 if _has_diffuse(usual) and not _has_highlight(usual) else MOST_LOBES
+
+
+def _resolved(model: Any) -> Reflectance:
+    """The reflectance of what stands for a model."""
+    if isinstance(model, type) and issubclass(model, Reflectance):
+        made: Reflectance = model()
+    elif isinstance(model, Reflectance):
+        made = model
+    elif isinstance(model, str):
+        made = _named(model)
+    else:
+        raise ParameterError(f"a fit needs a model, its class or its name, got {type(model).__name__}")
+    return made
 
 
 def _named(model: str) -> Reflectance:
