@@ -17,6 +17,9 @@ MATERIAL = "// MATERIAL\n"
 HARDWARE_FILTER = "#define HARDWARE_FILTER\n"
 """Before a shader: linear lookups are left to the hardware."""
 
+LIGHTS_ALONE = "#define LIGHTS_ALONE\n"
+"""Before a shader that shades: without an environment, a smaller and faster program."""
+
 SHAPES = ("mesh", "sphere")
 """What there are stages for: triangles, and the exact unit sphere."""
 

@@ -88,8 +88,9 @@ class Renderer:
         self._sum = opened.target(task.width, task.height, depth=False)
         scene = SceneOnCard(opened, task, self._passes)
         self._materials = []
+        defined = stages.HARDWARE_FILTER * filtered + stages.LIGHTS_ALONE * (task.scene.environment is None)
         for stage, m in zip(shading, task.reflectances, strict=True):
-            program = scene.apply(opened.program(stage.vertex, stages.HARDWARE_FILTER * filtered + stage.fragment))
+            program = scene.apply(opened.program(stage.vertex, defined + stage.fragment))
             for shader in stage.materials:
                 set_material(opened, program, shader, filtered)
             program["environment_samples"] = task.rounds // self._passes
