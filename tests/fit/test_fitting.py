@@ -110,6 +110,17 @@ def test_a_normalisation_beside_a_scale_is_held() -> None:
     assert r.errors["cosine-weighted L2"] < 0.01
 
 
+def test_no_number_is_said_to_be_exact() -> None:
+    """Of SGD's masking the data say next to nothing: rounding must not make that an error of zero."""
+    truth = brdf.load("alum-bronze@bagher_sgd")
+    few = stratified(samples_of(truth), SCALES["l2"], 4000, 1)
+    factor = 1 + 0.05 * np.random.default_rng(8).standard_normal(few.values.shape)
+    r = brdf.fit(Samples.of(few.wi, few.wo, few.values * factor, few.weight), truth, fixed=["K"], budget=1)
+    errors = np.array([e.error for e in r.parameters if e.state == "free"])
+    assert (errors > 1e-9).all()
+    assert np.isinf(errors).any()
+
+
 def test_a_weight_beside_a_colour_is_held() -> None:
     """Unless the colour is held already: then nothing stands for the weight."""
     truth = OpenPBR(base_color=(0.6, 0.3, 0.1), specular_roughness=0.4)

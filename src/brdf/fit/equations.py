@@ -7,7 +7,6 @@ reasonable time, and formulas with textures, are evaluated with NumPy, block by 
 
 from __future__ import annotations
 
-import copy
 import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -109,13 +108,6 @@ class Equations:
         self._data[6:9] = loss.scale(samples.values * samples.wi[:, 2:]).T
         self._data[9:] = np.sqrt(samples.weight).T
         self.size = 3 * len(samples.wi)
-
-    def reweighted(self, factor: NDArray[Any]) -> Equations:
-        """The same with residuals multiplied by `factor` (N, 3)."""
-        made = copy.copy(self)
-        made._data = self._data.copy()
-        made._data[9:] *= factor.T
-        return made
 
     def __call__(self, numbers: Array) -> Normal:
         """The equations at the model's numbers (P,)."""

@@ -175,9 +175,10 @@ class _Fit:
         fitted = np.asarray(made(samples.wi, samples.wo))
         cosine = samples.wi[:, 2:]
         residual = loss.scale(fitted * cosine) - loss.scale(samples.values * cosine)
-        equations = Equations(self.template, samples, loss)
-        normal = equations(numbers)
-        meat = equations.reweighted(np.sqrt(samples.weight) * residual)(numbers).hessian
+        # Both in double precision: they are inverted.
+        normal = Equations(self.template, samples, loss, "float64")(numbers)
+        squared = samples.reweighted(np.square(samples.weight * residual, dtype=np.float64))
+        meat = Equations(self.template, squared, loss, "float64")(numbers).hessian
         sure = certainty(self.components, numbers, self.free, normal.hessian, meat, 3 * len(samples))
         states = [
             "held" if not free else "at bound" if np.isnan(error) else "free"
