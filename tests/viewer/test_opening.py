@@ -88,6 +88,29 @@ def test_view_prints_the_address_opens_it_and_ends(
     assert capsys.readouterr().out.split() == opened
 
 
+def test_where_no_browser_is_found_that_is_said(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    said = threading.Event()
+
+    class Told:
+        def write(self, text: str) -> None:
+            if "no browser was found" in text:
+                said.set()
+
+        def flush(self) -> None:
+            pass
+
+    def interrupted(server: Any) -> None:
+        assert said.wait(LIMIT)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(opening.webbrowser, "open", lambda address: False)
+    monkeypatch.setattr(opening.Server, "wait", interrupted)
+    monkeypatch.setattr(sys, "stderr", Told())
+    brdf.view(GGX(), mesh="sphere")
+
+
 def test_in_a_notebook_it_is_a_widget(monkeypatch: pytest.MonkeyPatch) -> None:
     ipython = pytest.importorskip("IPython")
     shell = types.SimpleNamespace(kernel=object())

@@ -75,13 +75,18 @@ def run(server: Server, browser: bool) -> None:
     """
     try:
         if browser:
-            threading.Thread(target=webbrowser.open, args=(server.address,), daemon=True).start()
+            threading.Thread(target=_open, args=(server.address,), daemon=True).start()
         server.contents.payload()
         server.wait()
     except KeyboardInterrupt:
         pass
     finally:
         server.stop()
+
+
+def _open(address: str) -> None:
+    if not webbrowser.open(address):
+        print("no browser was found; open the address above in one", file=sys.stderr, flush=True)
 
 
 class Once:
