@@ -31,8 +31,8 @@ NO_WORSE = 1e-3
 def errors(report: Report, scores: Sequence[Score]) -> None:
     """Means over the materials, a line a published set of fits."""
     columns: list[Column | str] = ["fits", "model", Column("materials", "1")]
-    columns += [Column(metric, "1", ".3g", "paper") for metric in EVERY]
-    columns += [Column(f"{METRIC}, same materials", "1", ".3g", "paper"), Column("ours", "1", ".3g", "ours")]
+    columns += [Column(metric, "1", "#.3g", "paper") for metric in EVERY]
+    columns += [Column(f"{METRIC}, same materials", "1", "#.3g", "paper"), Column("ours", "1", "#.3g", "ours")]
     rows: list[list[Cell]] = []
     for fit in _fits(scores):
         own = [s for s in scores if s.fit == fit]
@@ -78,7 +78,7 @@ def people(report: Report, scores: Sequence[Score]) -> None:
     ranks = [spearmanr(list(PEOPLE.values()), [of[fit][k] for fit in PEOPLE]).statistic for k in range(len(EVERY))]
     rows.append(["Spearman's correlation", None, *map(float, ranks)])
     columns: list[Column | str] = ["fits", Column("people", "1", ".3f", "paper")]
-    columns += [Column(metric, "1", ".3g", "ours") for metric in EVERY]
+    columns += [Column(metric, "1", "#.3g", "ours") for metric in EVERY]
     report.table("people", "As people see them, and as metrics do", columns, rows, how=f"over {len(common)} materials")
 
 
@@ -92,8 +92,8 @@ def materials(report: Report, scores: Sequence[Score]) -> None:
         best = own.get(name)
         ours = found[name, best].ours if best else None
         rows.append([name, fit, found[name, fit].published[METRIC], best, ours[METRIC] if ours else None])
-    columns: list[Column | str] = ["material", "nearest published", Column(METRIC, "1", ".3g", "paper")]
-    columns += ["nearest of ours", Column(METRIC, "1", ".3g", "ours")]
+    columns: list[Column | str] = ["material", "nearest published", Column(METRIC, "1", "#.3g", "paper")]
+    columns += ["nearest of ours", Column(METRIC, "1", "#.3g", "ours")]
     report.table("materials", "The nearest fit of each material", columns, rows)
 
 
