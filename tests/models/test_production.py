@@ -6,11 +6,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.interpolate import RegularGridInterpolator
 
+from brdf.combinators import SpatiallyVarying
 from brdf.geometry.directions import from_spherical
 from brdf.geometry.quadrature import half_vector_rule, hemisphere_rule
 from brdf.models import CharlieSheen, Disney, GltfMetallicRoughness, Microfacet, OpenPBR
 from brdf.models.sheen import charlie_lambda
+from brdf.models.terms.layer_albedo import dielectric_albedo
 from brdf.reflectance import Reflectance
 from lobes import direction, random_pairs
 
@@ -139,6 +142,31 @@ def test_the_f82_curve_of_a_black_tint_stays_above_zero(color: float) -> None:
     )  # about 82 degrees, where the tint makes it touch zero
     metal = OpenPBR(base_metalness=1.0, base_color=color, specular_color=0.0)
     assert metal.raw(wi, wi * [-1, -1, 1]).min() >= 0
+
+
+ALBEDOS = [(0.9, 0.03, 1.5), (0.3, 0.3, 1.3), (0.05, 0.8, 2.5), (0.6, 0.001, 1.05), (0.12, 0.1, 3.0)]
+"""Cosine, alpha, index."""
+
+
+@pytest.mark.parametrize(("cosine", "alpha", "eta"), ALBEDOS)
+def test_openpbr_layers_by_the_albedos_of_its_lobes(cosine: float, alpha: float, eta: float) -> None:
+    """Between the nodes of its table, against the same lobe as a model of its own."""
+    lobe = Microfacet(alpha=alpha, fresnel="dielectric", eta=eta)
+    expected = albedo(lobe, float(np.degrees(np.arccos(cosine))))[0]
+    root = (eta - 1) / (eta + 1)
+    table = RegularGridInterpolator([np.linspace(0, 1, n) for n in (32, 32, 16)], dielectric_albedo()[..., 0])
+    where = [np.sqrt(cosine), (np.sqrt(alpha) - np.sqrt(1e-3)) / (1 - np.sqrt(1e-3)), 2 * root]
+    assert abs(table(where)[0] - expected) < 3e-3
+
+
+def test_the_tables_of_openpbr_do_not_follow_its_numbers() -> None:
+    """So that they stay right under a slider, and where a number varies over a surface."""
+    image = np.array([[0.2, 0.8]])
+    m = SpatiallyVarying(OpenPBR(coat_weight=0.4), specular_roughness=image, specular_ior=1 + image)
+    wi, wo = random_pairs(50)
+    place = np.broadcast_to([0.75, 0.5], (50, 2))
+    right = OpenPBR(coat_weight=0.4, specular_roughness=0.8, specular_ior=1.8)
+    np.testing.assert_allclose(m(wi, wo, uv=place), right(wi, wo), rtol=1e-6)
 
 
 def test_openpbr_layers() -> None:

@@ -2,7 +2,7 @@
 
 Residual of a channel: root * (T(f cos(theta_i)) - target), with the loss's scale T. From its graph come the derivatives
 with respect to all numbers of the model; a generated kernel adds up their products. Graphs too large to compile in
-reasonable time, and formulas with textures, are evaluated with NumPy, block by block.
+reasonable time are evaluated with NumPy, block by block.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class Rows:
     @property
     def is_compiled(self) -> bool:
         size = len(reachable([row for rows in self.channels for row in rows]))
-        return size <= LARGEST_COMPILED and not self.program.textures
+        return size <= LARGEST_COMPILED
 
 
 _rows: dict[tuple[Any, ...], Rows] = {}
@@ -126,10 +126,12 @@ class Equations:
         kernel = _kernel(self._rows, self._real)
         most = max(map(len, self._rows.channels))
         count = self._data.shape[1]
+        parameters = np.ascontiguousarray(numbers, np.float64)
+        textures = [np.ascontiguousarray(texels, np.float32) for texels in self._textures(numbers).values()]
 
         def run(start: int) -> Array:
             grams = np.zeros((3, most, most))
-            kernel(self._data, np.ascontiguousarray(numbers, np.float64), grams, start, min(start + PER_TASK, count))
+            kernel(self._data, parameters, *textures, grams, start, min(start + PER_TASK, count))
             return grams
 
         return list(np.sum(map_threads(run, range(0, count, PER_TASK)), axis=0))
@@ -146,12 +148,16 @@ class Equations:
         block = self._data[:, part].astype(np.float64)
         symbols: dict[str, Any] = dict(zip(_INPUTS, block, strict=True))
         symbols |= {c.name: value for c, value in zip(self._components, numbers, strict=True)}
-        textures = {}
-        if self._rows.program.textures:
-            textures = dict(with_values(self._model, grouped(numbers, self._components)).textures)
         outputs = [row for rows in self._rows.channels for row in rows]
-        flat = iter(evaluate(outputs, symbols, textures))
+        flat = iter(evaluate(outputs, symbols, self._textures(numbers)))
         return [np.array([np.broadcast_to(next(flat), block.shape[1:]) for _ in rows]) for rows in self._rows.channels]
+
+    def _textures(self, numbers: Array) -> dict[str, Any]:
+        """Those of the model at its numbers, in the order of its program."""
+        if not self._rows.program.textures:
+            return {}
+        made = with_values(self._model, grouped(numbers, self._components)).textures
+        return {texture.name: made[texture.name] for texture in self._rows.program.textures}
 
     def active(self, channel: int) -> Sequence[int]:
         """Which numbers the derivatives of a channel are with respect to, in the order of `rows_at`."""
@@ -165,6 +171,8 @@ def _kernel(rows: Rows, real: str) -> Callable[..., Any]:
     key = (rows, real)
     with _compiling:
         if key not in _kernels:
-            source = print_normal_equations(rows.program.title, rows.channels, rows.inputs, rows.parameters, real)
+            source = print_normal_equations(
+                rows.program.title, rows.channels, rows.inputs, rows.parameters, rows.program.textures, real
+            )
             _kernels[key] = loaded(stored(source))
     return _kernels[key]

@@ -26,7 +26,8 @@ from ..threads import cores, map_threads
 from . import math32, math64
 from .engine import check_lengths
 from .machine_code import cache_folder
-from .printers.numba import BLOCK, print_kernel
+from .printers.numba import print_kernel
+from .printers.numba_blocks import BLOCK
 from .trace import parameter_values, trace
 
 _PER_TASK = 64 * BLOCK

@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from functools import lru_cache
 from typing import Any, ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
-from ..formula import Scalar, Vec, abs, dot, maximum, minimum, mix, normalize, pow, sqrt
+from ..formula import Scalar, Vec, abs, dot, maximum, minimum, mix, normalize, pow, sqrt, texture2d, texture3d
 from ..geometry.quadrature import gauss_legendre
 from ..geometry.sampling import CosineSampler, GGXSampler, MixtureSampler, Sampler
 from ..parameters import RGB, albedo, number
 from .eon import eon, fitted_G_over_pi
 from .model import Model
 from .sheen import charlie
-from .terms.albedo import albedo_table, looked_up
 from .terms.fresnel import dielectric
 from .terms.ggx import ggx_lobe
+from .terms.layer_albedo import dielectric_albedo, dielectric_coordinates, fuzz_albedo, fuzz_coordinates
 
 _NODES, _WEIGHTS = (rule.tolist() for rule in gauss_legendre(8))
 LEAST_WIDTH = 1e-3
@@ -30,8 +26,8 @@ class OpenPBR(Model):
         f(wi, wo) = W w_f f_fuzz + (1 - W E_fuzz(wo)) [C f_coat + (1 - C E_coat(wo)) T f_base]      [1/sr]
         f_base = mix(w_s f_spec + (1 - E_spec(wo)) f_EON, f_metal, metalness),   T = mix(1, w_c Delta, C)
 
-    W and C are fuzz and coat weight, w_f, w_s and w_c the layers' colours; E, the directional albedos of the white
-    lobes, are tabulated for the values at hand. f_metal has the F82-tint Fresnel term; under a coat the specular
+    W and C are fuzz and coat weight, w_f, w_s and w_c the layers' colours; E are the tabulated directional albedos of
+    the white lobes. f_metal has the F82-tint Fresnel term; under a coat the specular
     lobe is rougher and meets the relative index of base and coat; Delta darkens the base by what the coat reflects
     back into it. In place of the specification's fitted fuzz lobe stands `CharlieSheen`; the coat tints as at normal
     incidence; no light is added for multiple scattering among facets. Reference: OpenPBR2024.
@@ -66,24 +62,36 @@ class OpenPBR(Model):
     def f(self, wi: Vec, wo: Vec) -> Vec:
         cosine = dot(wi, normalize(wi + wo))
         color = self.base_weight * self.base_color
-        lobe = ggx_lobe(wi, wo, *self.specular_widths())
+        alpha_x, alpha_y = self.specular_widths()
+        lobe = ggx_lobe(wi, wo, alpha_x, alpha_y)
         diffuse = eon(wi, wo, color, self.base_diffuse_roughness, fitted_G_over_pi)
         highlight = self.specular_color * (dielectric(cosine, self.specular_eta()) * lobe)
-        plastic = highlight + diffuse * (1.0 - looked_up(self.specular_albedo, wo.z))
+        plastic = highlight + diffuse * (1.0 - self.albedo_of(wo.z, sqrt(alpha_x * alpha_y), self.specular_root()))
         metal = _f82_tint(cosine, color, self.specular_color) * (self.specular_weight * lobe)
         base = mix(plastic, metal, self.base_metalness)
 
         coat = self.coat_weight * dielectric(cosine, self.coat_ior) * ggx_lobe(wi, wo, *self.coat_widths())
-        through = (1.0 - self.coat_weight * looked_up(self.coat_albedo, wo.z)) * self.tint_below_coat(wo.z, color)
+        coat_root = (self.coat_ior - 1.0) / (self.coat_ior + 1.0)
+        E_coat = self.albedo_of(wo.z, self.coat_widths()[0], coat_root)
+        through = (1.0 - self.coat_weight * E_coat) * self.tint_below_coat(wo.z, color)
         coated = base * through + coat
 
         fuzz = self.fuzz_color * (self.fuzz_weight * charlie(wi, wo, self.fuzz_roughness))
-        return fuzz + coated * (1.0 - self.fuzz_weight * looked_up(self.fuzz_albedo, wo.z))
+        E_fuzz = texture2d(self.fuzz_albedo, *fuzz_coordinates(wo.z, self.fuzz_roughness))[0]
+        return fuzz + coated * (1.0 - self.fuzz_weight * E_fuzz)
+
+    def albedo_of(self, cosine: Scalar, alpha: Scalar, root: Scalar) -> Scalar:
+        """E of a white dielectric lobe whose F0 is root^2."""
+        return texture3d(self.dielectric_albedo, *dielectric_coordinates(cosine, alpha, root))[0]
+
+    def specular_root(self) -> Scalar:
+        """The root of the base's F0, which the specular weight scales."""
+        eta = mix(self.specular_ior, self.specular_ior / self.coat_ior, self.coat_weight)
+        return sqrt(self.specular_weight) * abs(eta - 1.0) / (eta + 1.0)
 
     def specular_eta(self) -> Scalar:
-        """Relative index that meets light at the base, such that its F0 is scaled by the specular weight."""
-        eta = mix(self.specular_ior, self.specular_ior / self.coat_ior, self.coat_weight)
-        root = sqrt(self.specular_weight) * abs(eta - 1.0) / (eta + 1.0)
+        """Relative index that meets light at the base."""
+        root = self.specular_root()
         return (1.0 + root) / (1.0 - root)
 
     def specular_widths(self) -> tuple[Scalar, Scalar]:
@@ -111,12 +119,7 @@ class OpenPBR(Model):
         return mix(1.0, self.coat_color * mix(1.0, darkened, self.coat_darkening), self.coat_weight)
 
     def derived_textures(self) -> dict[str, Any]:
-        alpha_x, alpha_y = self.specular_widths()
-        return {
-            "specular_albedo": _white_albedo(float(self.specular_eta()), float(sqrt(alpha_x * alpha_y))),
-            "coat_albedo": _white_albedo(float(self.coat_ior), float(self.coat_widths()[0])),
-            "fuzz_albedo": _fuzz_albedo(float(self.fuzz_roughness)),
-        }
+        return {"dielectric_albedo": dielectric_albedo(), "fuzz_albedo": fuzz_albedo()}
 
     def _make_sampler(self) -> Sampler:
         alpha_x, alpha_y = (float(alpha) for alpha in self.specular_widths())
@@ -126,21 +129,6 @@ class OpenPBR(Model):
             GGXSampler(*map(float, self.coat_widths())),
         ]
         return MixtureSampler(samplers, [1 - 0.8 * self.base_metalness, 0.5, 0.3 * self.coat_weight])
-
-
-@lru_cache(maxsize=64)
-def _white_albedo(eta: float, alpha: float) -> NDArray[np.float32]:
-    """E of a white dielectric lobe, (64, 1)."""
-
-    def lobe(wi: Vec, wo: Vec) -> Scalar:
-        return dielectric(dot(wi, normalize(wi + wo)), eta) * ggx_lobe(wi, wo, alpha, alpha)
-
-    return albedo_table(lobe)[:, 0]
-
-
-@lru_cache(maxsize=64)
-def _fuzz_albedo(roughness: float) -> NDArray[np.float32]:
-    return albedo_table(lambda wi, wo: charlie(wi, wo, roughness))[:, 0]
 
 
 def _f82_tint(cosine: Scalar, F0: Vec, tint: Vec) -> Vec:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...formula import Scalar, Vec, maximum, sqrt, texture1d
+from ...formula import Scalar, Vec, maximum, sqrt
 from ...geometry.directions import from_spherical
 from ...geometry.quadrature import gauss_legendre, half_vector_rule
 from .ndf.projected_area import node_coordinate
@@ -42,8 +42,3 @@ def cosine_mean(table: NDArray[np.float32]) -> float:
 def albedo_coordinate(cosine: Scalar) -> Scalar:
     """Texture coordinate of a cosine along the first axis of a table."""
     return node_coordinate(sqrt(maximum(cosine, 0.0)), COSINES)
-
-
-def looked_up(table: Any, cosine: Scalar) -> Scalar:
-    """Albedo from a table (64, 1) without an axis for the azimuth."""
-    return texture1d(table, albedo_coordinate(cosine))[0]
