@@ -169,3 +169,13 @@ def test_a_folder_that_cannot_be_written_is_one_line(tmp_path: Path) -> None:
 def test_an_unknown_document_names_the_known_ones() -> None:
     with pytest.raises(UnknownNameError, match="unknown document 'image': did you mean 'images'"):
         brdf.reproduce("image")
+
+
+@pytest.mark.parametrize("name", ["short", "slice stack, baked at the nodes (ours)"])
+def test_legends_stay_in_their_chart(name: str) -> None:
+    figure = curves({f"{number} {name}": ([0, 1], [0, number]) for number in range(7)}, "x", "y")
+    figure.draw_without_rendering()
+    box, legend = figure.bbox, figure.legends[0].get_window_extent()
+    assert box.x0 <= legend.x0
+    assert legend.x1 <= box.x1
+    assert legend.y1 <= figure.axes[0].get_window_extent().y0

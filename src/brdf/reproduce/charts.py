@@ -13,6 +13,10 @@ if TYPE_CHECKING:
 
 SIZE = (4.4, 3.5)
 """Inches: with letters of 9 points it stays legible in a column of a telephone's width."""
+LEGEND_ROW = 0.17
+"""Inches a row of the legend is high."""
+LONGEST_OF_TWO = 30
+"""Letters of a name beside which another has room."""
 
 Curve = tuple[Sequence[float], Sequence[float]]
 
@@ -27,7 +31,9 @@ def curves(
 
     style: Any = dict.fromkeys(("text.color", "axes.edgecolor", "axes.labelcolor"), INK)
     with matplotlib.rc_context(style | {"font.size": 9, "axes.linewidth": 0.6}):
-        figure = Figure(SIZE, dpi=100, layout="constrained")
+        columns = 2 if max(map(len, series)) <= LONGEST_OF_TWO else 1
+        further = 0.0 if columns == 2 else len(series) / 2 * LEGEND_ROW
+        figure = Figure((SIZE[0], SIZE[1] + further), dpi=100, layout="constrained")
         axes: Any = figure.add_subplot()
         for number, (name, (x, y)) in enumerate(series.items()):
             colour = (*COLOURS, "#7F7F7F")[number % (len(COLOURS) + 1)]
@@ -41,5 +47,5 @@ def curves(
         axes.tick_params(which="both", color=INK, labelcolor=INK)
         axes.spines[["top", "right"]].set_visible(False)
         axes.grid(alpha=0.25, color=INK, lw=0.5)
-        figure.legend(loc="outside lower center", ncols=2, frameon=False, fontsize=9)
+        figure.legend(loc="outside lower center", ncols=columns, frameon=False, fontsize=9)
     return figure
