@@ -20,7 +20,7 @@ from .fresnel import dielectric
 from .ggx import ggx_lobe
 from .ndf.projected_area import node_coordinate
 
-COSINES, ROUGHNESSES, ROOTS = 32, 32, 16
+COSINES, ROUGHNESSES, ROOTS = 32, 32, 17
 """Nodes over the root of the cosine, the root of alpha and the root of F0."""
 NARROWEST = 1e-3
 """Least alpha."""
@@ -51,7 +51,7 @@ def fuzz_coordinates(cosine: Scalar, roughness: Scalar) -> tuple[Scalar, Scalar]
 
 @cache
 def dielectric_albedo() -> NDArray[np.float32]:
-    """E of the GGX lobe with exact Fresnel reflectance and no colour, (32, 32, 16, 1), to half precision."""
+    """E of the GGX lobe with exact Fresnel reflectance and no colour, (32, 32, 17, 1), to half precision."""
     widths = np.linspace(NARROWEST**0.5, 1, ROUGHNESSES) ** 2
     root = np.linspace(0, LARGEST_ROOT, ROOTS)
     eta = (1 + root) / (1 - root)
