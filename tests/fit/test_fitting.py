@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ from brdf.errors import BrdfError, ParameterError, ReflectanceError, UnknownName
 from brdf.fit import LOSSES, Samples, data_of, samples_of
 from brdf.fit.losses import LOSSES as SCALES
 from brdf.fit.multistart import stratified
+from brdf.fit.samples import from_rows
 from brdf.fit.template import template_of
 from brdf.metrics import METRICS
 from brdf.models import GGX, BlinnPhong, Lambertian, OpenPBR, SmoothDielectric, Ward
@@ -94,6 +97,62 @@ def test_robust_losses_withstand_outliers() -> None:
     plain, robust = (brdf.fit(spoiled, Ward, robust=r, budget="quick") for r in (None, "cauchy"))
     errors = [np.abs(np.array([e.value for e in r.parameters]) / VALUES - 1).max() for r in (plain, robust)]
     assert errors[1] < 0.03 < errors[0]
+
+
+def deviations(make: Callable[[int], Samples], draws: int, **options: Any) -> np.ndarray:
+    """(draws, P) how far the numbers are from the truth, in their standard errors."""
+    fits = [brdf.fit(make(seed), TRUTH, budget=1, **options) for seed in range(draws)]
+    return np.array([[(e.value - v) / e.error for e, v in zip(r.parameters, VALUES, strict=True)] for r in fits])
+
+
+@pytest.mark.parametrize("robust", ["cauchy", "huber", "soft_l1"])
+def test_standard_errors_of_robust_fits_are_theirs(robust: str) -> None:
+    """Outliers that hardly move the numbers do not widen their errors."""
+
+    def spoiled(seed: int) -> Samples:
+        some = noisy(seed)
+        outliers = np.random.default_rng(seed).random(some.values.shape) < 0.03
+        return Samples.of(some.wi, some.wo, some.values * np.where(outliers, 3, 1), some.weight)
+
+    z = deviations(spoiled, 30, robust=robust)
+    assert np.std(z, axis=0) == pytest.approx(1, abs=0.4)
+
+
+def test_copies_of_a_channel_are_one_measurement() -> None:
+    def monochrome(seed: int) -> Samples:
+        factor = 1 + 0.05 * np.random.default_rng(seed).standard_normal(len(FEW))
+        return Samples.of(FEW.wi, FEW.wo, FEW.values[:, 0] * factor, FEW.weight[:, 0])
+
+    z = deviations(monochrome, 40)
+    assert np.std(z[:, [0, 3, 6]], axis=0) == pytest.approx(1, abs=0.25)  # albedo_r, ks_r and the shared alpha
+
+
+@pytest.mark.parametrize("count", [1, 2, 4])
+def test_too_few_samples_determine_nothing(count: int) -> None:
+    r = brdf.fit(Samples.of(*(a[:count] for a in (FEW.wi, FEW.wo, FEW.values))), GGX, budget=1)
+    assert all(np.isinf(e.error) for e in r.parameters if e.state == "free")
+    assert any("not determined" in w for w in r.warnings)
+    assert "held" not in {e.state for e in r.parameters if "albedo" in e.name}
+
+
+@pytest.mark.parametrize(
+    ("values", "weight", "message"),
+    [
+        (FEW.values, np.ones(49), "do not fit"),
+        (np.full(FEW.values.shape, "x"), 1.0, "samples are numbers"),
+    ],
+)
+def test_samples_that_are_none(values: np.ndarray, weight: Any, message: str) -> None:
+    with pytest.raises(ParameterError, match=message):
+        Samples.of(FEW.wi, FEW.wo, values, weight)
+
+
+def test_holes_among_measured_rows_are_left_out() -> None:
+    angles = np.random.default_rng(0).uniform(0, 1, (30, 4))
+    spectra = np.ones((30, 5))
+    spectra[3, 2], spectra[7] = -1, np.nan
+    some = from_rows(angles, spectra, np.linspace(400, 700, 5), 80.0, "x", "y")
+    assert (len(some), some.left_out) == (28, 2)
 
 
 def test_what_is_held_keeps_its_value() -> None:
@@ -229,6 +288,9 @@ MISTAKES = [
     (TRUTH, {"model": Ward, "grazing": 95}, ParameterError, "(0, 90] degrees, got 95"),
     (TRUTH, {"model": Ward, "metric": "image", "robust": "huber"}, ParameterError, "no robust form"),
     (TRUTH, {"model": 3}, ParameterError, "a model, its class or its name"),
+    (TRUTH, {"model": "Mirror"}, ReflectanceError, "mirrors"),
+    (TRUTH, {"model": Ward, "seed": -1}, ParameterError, "whole number from 0"),
+    (TRUTH, {"model": Ward, "budget": 2.5}, ParameterError, "1 to 4096 searches"),
     (TRUTH, {"model": TRUTH, "lobes": 2}, ParameterError, "lobes are of one model"),
     (TRUTH, {"model": "Disney", "lobes": 2}, ParameterError, "Disney is no lobe but a whole or a diffuse material"),
     (SmoothDielectric(), {"model": Ward}, ReflectanceError, "transmits"),

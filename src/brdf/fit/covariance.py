@@ -7,7 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..reflectance import Reflectance
+from .equations import Equations
+from .losses import Loss
 from .parameters import Component
+from .robust import influence
+from .samples import Samples
 
 Array = NDArray[np.float64]
 
@@ -35,10 +40,35 @@ class Certainty:
     warnings: tuple[str, ...]
 
 
+def sandwich(
+    m: Reflectance, samples: Samples, loss: Loss, numbers: Array, robust: str | None, scale: float
+) -> tuple[Array, Array]:
+    """(P, P) the curvature of what was made small at its minimum, and the products of the samples' own slopes there.
+
+    For a robust loss both are weighted by how it pulls (Huber1964), `scale` being where it begins to. The channels of
+    a sample count as three measurements, unless they are copies of one. In double precision: they are inverted.
+    """
+    cosine = samples.wi[:, 2:]
+    residual = loss.scale(np.asarray(m(samples.wi, samples.wo)) * cosine) - loss.scale(samples.values * cosine)
+    residual = np.sqrt(samples.weight, dtype=np.float64) * residual
+
+    def equations(factor: Array | float) -> Equations:
+        return Equations(m, samples.reweighted(samples.weight * factor), loss, "float64")
+
+    pull, slope = (1.0, 1.0) if robust is None else influence(robust, residual, scale)
+    curvature = equations(np.maximum(slope, 0))(numbers).hessian
+    if np.min(slope) < 0:
+        curvature = curvature - equations(np.maximum(-slope, 0))(numbers).hessian
+    if samples.is_monochrome:
+        return curvature, equations(pull).scores(numbers)
+    return curvature, equations(np.square(residual * pull))(numbers).hessian
+
+
 def certainty(
     components: list[Component], numbers: Array, free: NDArray[np.bool_], hessian: Array, meat: Array, residuals: int
 ) -> Certainty:
-    """From J^T J and from sum J^T r r^T J, the products of the residuals' own slopes.
+    """From the curvature and the products of slopes, see `sandwich`; `residuals`: how many there are, 0 for too
+    few to determine anything.
 
     The sandwich H^-1 M H^-1 n / (n - p): it stays right where errors are not equally large everywhere, as those of
     measurements are not. References: White1980.
@@ -52,7 +82,7 @@ def certainty(
     correlation = np.full((len(numbers), len(numbers)), np.nan)
     errors[free & ~at_bound] = np.inf
     warnings = [f"{components[k].name} lies at its bound {numbers[k]:g}" for k in np.flatnonzero(at_bound)]
-    if len(known) and np.isfinite(hessian).all() and np.isfinite(meat).all():
+    if residuals and len(known) and np.isfinite(hessian).all() and np.isfinite(meat).all():
         scale = 1 / np.sqrt(np.diag(hessian)[known])
         H = hessian[np.ix_(known, known)] * np.outer(scale, scale)
         values, vectors = np.linalg.eigh(H)

@@ -143,6 +143,18 @@ class Equations:
                 total += rows @ rows.T
         return totals
 
+    def scores(self, numbers: Array) -> Array:
+        """(P, P) products of the samples' gradients, those of a sample's channels taken together."""
+        total = len(self._components)
+        products = np.zeros((total, total))
+        for start in range(0, self._data.shape[1], PER_BLOCK):
+            channels = self.rows_at(numbers, slice(start, start + PER_BLOCK))
+            gradients = np.zeros((total, channels[0].shape[1]))
+            for channel, rows in enumerate(channels):
+                gradients[list(self.active(channel))] += rows[:-1] * rows[-1]
+            products += gradients @ gradients.T
+        return products
+
     def rows_at(self, numbers: Array, part: slice = slice(None)) -> list[Array]:
         """Each channel's derivatives and, last, its residuals, (n + 1, N), evaluated with NumPy."""
         block = self._data[:, part].astype(np.float64)

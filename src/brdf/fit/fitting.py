@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
@@ -11,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError, ReflectanceError, UnknownNameError
+from ..metrics import direction_pairs
 from ..reflectance import Reflectance
-from .covariance import certainty
+from .covariance import certainty, sandwich
 from .data import Data, data_of
 from .equations import Equations, Normal
 from .levenberg import Problem, Search, advance, begin
@@ -32,9 +34,6 @@ BUDGETS = {"quick": 4, "normal": 16, "thorough": 64}
 
 MOST_STEPS = 200
 """Of the last search, on all samples."""
-
-PROBES = 400
-"""Samples at which parameters that stand for each other are told."""
 
 
 def fit(
@@ -66,10 +65,12 @@ def fit(
     """
     begun = time.perf_counter()
     starts = _starts(budget)
+    if not isinstance(seed, (int, np.integer)) or seed < 0:
+        raise ParameterError(f"a seed is a whole number from 0 on, got {seed!r}")
     if robust is not None:
         require_known(robust)
     if metric != IMAGE and metric not in LOSSES:
-        raise UnknownNameError("metric", metric, [*LOSSES, IMAGE])
+        raise UnknownNameError("metric", str(metric), [*LOSSES, IMAGE])
     samples, reflectance = data if isinstance(data, Data) else data_of(data, grazing)
     if metric == IMAGE and (reflectance is None or robust is not None):
         raise ParameterError("the image metric needs a reflectance to make pictures of, and has no robust form")
@@ -96,7 +97,7 @@ def _starts(budget: str | int) -> int:
     if isinstance(budget, str) and budget not in BUDGETS:
         raise UnknownNameError("budget", budget, BUDGETS)
     starts = BUDGETS[budget] if isinstance(budget, str) else budget
-    if not 1 <= starts <= 4096:
+    if not isinstance(starts, (int, np.integer)) or not 1 <= starts <= 4096:
         raise ParameterError(f"a fit begins 1 to 4096 searches, got {starts}")
     return starts
 
@@ -108,8 +109,8 @@ class _Fit:
         self, template: Reflectance, samples: Samples, pictures: Array | None, metric: str, fixed: Sequence[str],
         robust: str | None, starts: int, seed: int, say: Callable[[str], None],
     ) -> None:  # fmt: skip
-        if not template.has_formula or template.transmits:
-            raise ReflectanceError(f"{template.name} has no formula of reflection, which a fit needs")
+        if not template.has_formula or template.transmits or template.has_delta:
+            raise ReflectanceError(f"{template.name} has no formula of reflection, or mirrors: a fit needs values")
         self.template, self.samples, self.pictures = template, samples, pictures
         self.metric, self.robust, self.starts, self.seed, self.say = metric, robust, starts, seed, say
         self.loss: Loss = loss_named("l2" if metric == IMAGE else metric)
@@ -122,21 +123,24 @@ class _Fit:
         # Colours are solved for in a quadratic loss with the slope of the wanted one at the data.
         quadratic = few if self.loss.quadratic else _linearised(few, self.loss)
         equations = Equations(self.template, quadratic, LOSSES["l2"])
-        self.free &= ~_interchangeable(self.template, few, self.linear, self.free, self.seed)
+        self.free &= ~_interchangeable(self.template, self.linear, self.free, self.seed)
         problem = Problem(self.components, self.free, self.linear & self.free)
         points = start_points(self.components, self.free, self.starts, self.seed)
         self.say(f"{name}: {len(points)} starts")
         searches = run_rounds(problem, equations, points)
         if not searches:
             raise ParameterError(f"no start of {name} gives finite values; start from parameters that do")
-        numbers, agreeing = self._finished(problem, searches, few)
-        return self._described(name, lobes, numbers, agreeing, begun)
-
-    def _finished(self, problem: Problem, searches: list[Search], few: Samples) -> tuple[Array, int]:
-        """The best numbers on all samples, and how many searches agree on them."""
         energy = energy_of(few)
-        candidates = distinct(searches, energy)
         agreeing = sum(same(s.cost, searches[0].cost, energy) for s in searches)
+        numbers = self._finished(problem, distinct(searches, energy), few)
+        used, scale = self.samples, math.inf
+        if self.robust is not None:
+            used = stratified(self.samples, self.loss, MOST, self.seed)
+            numbers, scale = refine(problem, Equations(self.template, used, self.loss), numbers, self.robust)
+        return self._described(name, lobes, numbers, agreeing, begun, used, scale)
+
+    def _finished(self, problem: Problem, candidates: list[Search], few: Samples) -> Array:
+        """The best numbers on all samples."""
         joint = problem
         if not self.loss.quadratic or self.metric == IMAGE:
             joint = replace(problem, linear=np.zeros_like(problem.linear))
@@ -146,7 +150,7 @@ class _Fit:
                 advance(joint, evaluate, search, MOST_STEPS)
             candidates.sort(key=lambda s: s.cost)
         if self.metric == IMAGE:
-            return candidates[0].numbers, agreeing
+            return candidates[0].numbers
         if len(few) < len(self.samples):
             self.say("polishing on all samples")
             everything = Equations(self.template, self.samples, self.loss)
@@ -155,11 +159,7 @@ class _Fit:
             best = candidates[0]
             exact = Equations(self.template, few, self.loss, "float64")
             best = advance(joint, exact, begin(joint, exact, best.numbers), MOST_STEPS, 1e-12)
-        numbers = best.numbers
-        if self.robust is not None:
-            part = stratified(self.samples, self.loss, MOST, self.seed)
-            numbers = refine(problem, Equations(self.template, part, self.loss), numbers, self.robust)
-        return numbers, agreeing
+        return best.numbers
 
     def _picture_equations(self) -> PictureEquations | None:
         return (
@@ -168,18 +168,22 @@ class _Fit:
             else None
         )
 
-    def _described(self, name: str, lobes: int, numbers: Array, agreeing: int, begun: float) -> FitResult:
+    def _described(
+        self, name: str, lobes: int, numbers: Array, agreeing: int, begun: float, used: Samples, scale: float
+    ) -> FitResult:
+        """`used`: what determined the numbers; `scale`: where its robust loss begins to count less."""
         made = with_values(self.template, grouped(numbers, self.components))
         samples, loss = self.samples, self.loss
         made.named(f"{samples.name} by {name}" if samples.name else name, f"fitted to {samples.source or samples.name}")
         fitted = np.asarray(made(samples.wi, samples.wo))
-        cosine = samples.wi[:, 2:]
-        residual = loss.scale(fitted * cosine) - loss.scale(samples.values * cosine)
-        # Both in double precision: they are inverted.
-        normal = Equations(self.template, samples, loss, "float64")(numbers)
-        squared = samples.reweighted(np.square(samples.weight * residual, dtype=np.float64))
-        meat = Equations(self.template, squared, loss, "float64")(numbers).hessian
-        sure = certainty(self.components, numbers, self.free, normal.hessian, meat, 3 * len(samples))
+        equations = Equations(self.template, samples, loss, "float64")
+        cost = equations(numbers).cost
+        shared = max(int(self.free[list(equations.active(channel))].sum()) for channel in range(3))
+        enough = len(used) > shared
+        sure = certainty(
+            self.components, numbers, self.free, *sandwich(made, used, loss, numbers, self.robust, scale),
+            3 * len(used) if enough else 0,
+        )  # fmt: skip
         states = [
             "held" if not free else "at bound" if np.isnan(error) else "free"
             for free, error in zip(self.free, sure.errors, strict=True)
@@ -188,11 +192,12 @@ class _Fit:
             Estimate(c.name, float(v), float(e), state)
             for c, v, e, state in zip(self.components, numbers, sure.errors, states, strict=True)
         )
-        count = 3 * len(samples)
-        bic = count * np.log(max(2 * normal.cost, 1e-300) / count) + int(self.free.sum()) * np.log(count)
+        copies = 3 if samples.is_monochrome else 1
+        count, determined = 3 * len(samples) // copies, shared if copies == 3 else int(self.free.sum())
+        bic = count * np.log(max(2 * cost / copies, 1e-300) / count) + determined * np.log(count)
         return FitResult(
             made, samples.name, name, lobes, self.metric, estimates, sure.correlation, sure.warnings,
-            errors_of(samples, fitted, self.pictures, made), residual_map(samples, fitted), normal.cost, float(bic),
+            errors_of(samples, fitted, self.pictures, made), residual_map(samples, fitted), cost, float(bic),
             len(samples), samples.left_out, samples.grazing, self.starts, agreeing, self.seed,
             time.perf_counter() - begun, self.robust or "",
         )  # fmt: skip
@@ -214,19 +219,20 @@ def _linearised(samples: Samples, loss: Loss) -> Samples:
 
 
 def _interchangeable(
-    m: Reflectance, samples: Samples, linear: NDArray[np.bool_], free: NDArray[np.bool_], seed: int
+    m: Reflectance, linear: NDArray[np.bool_], free: NDArray[np.bool_], seed: int
 ) -> NDArray[np.bool_]:
     """(P,) free numbers that do nothing, in any channel, that others do not do as well, wherever one looks.
 
     They are held: first what is not linear (a normalisation beside a scale), then what acts on most channels (a weight
     beside a colour), then the later one.
     """
-    part = samples[np.linspace(0, len(samples) - 1, min(PROBES, len(samples))).astype(np.intp)]
+    wi, wo, weight = direction_pairs(polar=12, difference=8, azimuth=8)
+    part = Samples.of(wi, wo, np.zeros(len(wi)), weight)
     equations = Equations(m, part, LOSSES["l2"])
     seen, alike = np.zeros((2, 3, len(free), len(free)), np.intp)
     for point in start_points(components(m), np.ones_like(free), 8, seed):
         for channel, rows in enumerate(equations.rows_at(point)):
-            ids, J = np.array(equations.active(channel)), rows[:-1]
+            ids, J = np.array(equations.active(channel), np.intp), rows[:-1]
             length = np.linalg.norm(J, axis=1)
             told = free[ids] & np.isfinite(length) & (length > 0)
             ids, J = ids[told], J[told] / length[told, None]

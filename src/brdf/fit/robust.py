@@ -29,8 +29,11 @@ def require_known(name: str) -> None:
         raise UnknownNameError("robust loss", name, ROBUST)
 
 
-def refine(problem: Problem, equations: Equations, numbers: Array, robust: str) -> Array:
-    """The numbers at the robust minimum near `numbers`; all free ones are searched for."""
+def refine(problem: Problem, equations: Equations, numbers: Array, robust: str) -> tuple[Array, float]:
+    """The numbers at the robust minimum near `numbers`, and the residual from which on one counts less.
+
+    All free numbers are searched for.
+    """
     from scipy.optimize import least_squares
 
     free = np.flatnonzero(problem.free)
@@ -57,8 +60,21 @@ def refine(problem: Problem, equations: Equations, numbers: Array, robust: str) 
             blocks.append(block * slope)
         return np.concatenate(blocks)[:, free]
 
-    typical = SCALE * float(np.median(np.abs(residuals(begin))))
+    scale = max(SCALE * float(np.median(np.abs(residuals(begin)))), 1e-12)
     found: Any = least_squares(
-        residuals, begin, jac=jacobian, bounds=(low, high), loss=robust, f_scale=max(typical, 1e-12), x_scale="jac"
+        residuals, begin, jac=jacobian, bounds=(low, high), loss=robust, f_scale=scale, x_scale="jac"
     )
-    return at(found.x)
+    return at(found.x), scale
+
+
+def influence(robust: str, residuals: Array, scale: float) -> tuple[Array, Array]:
+    """By how much a loss rho(r^2) pulls at a residual r, in parts of r, and the slope of that pull.
+
+    rho' and rho' + 2 r^2 rho'' at r / scale; both are 1 for least squares.
+    """
+    z = np.square(residuals / scale)
+    if robust == "soft_l1":
+        return (1 + z) ** -0.5, (1 + z) ** -1.5
+    if robust == "cauchy":
+        return 1 / (1 + z), (1 - z) / (1 + z) ** 2
+    return 1 / np.sqrt(np.maximum(z, 1)), np.where(z <= 1, 1.0, 0.0)

@@ -57,9 +57,9 @@ class Samples:
         Rows with a value that is no number or below zero, without weight, or with a direction beyond `grazing` degrees
         are left out. Raises DirectionError, ParameterError for shapes that do not fit or when nothing is left.
         """
-        if not 0 < grazing <= 90:
-            raise ParameterError(f"the grazing angle must lie in (0, 90] degrees, got {grazing:g}")
-        wi, wo, values = (np.asarray(a, np.result_type(np.asarray(a), np.float32)) for a in (wi, wo, values))
+        if not isinstance(grazing, (int, float, np.floating)) or not 0 < grazing <= 90:
+            raise ParameterError(f"the grazing angle must lie in (0, 90] degrees, got {grazing!r}")
+        wi, wo, values, weight = (_numbers(a) for a in (wi, wo, values, weight))
         if values.ndim == 1:
             values = np.repeat(values[:, None], 3, 1)
         if wi.ndim != 2 or wi.shape[1:] != (3,) or wo.shape != wi.shape or values.shape != wi.shape:
@@ -67,8 +67,11 @@ class Samples:
                 f"samples need directions and values of shape (N, 3), got {wi.shape}, {wo.shape}, {values.shape}"
             )
         check_lengths(wi=wi, wo=wo)
-        given = np.asarray(weight, np.result_type(np.asarray(weight), np.float32))
-        given = np.broadcast_to(given[:, None] if given.ndim == 1 else given, values.shape)
+        if weight.ndim == 1:
+            weight = weight[:, None]
+        if weight.ndim > 2 or any(n not in (1, m) for n, m in zip(weight.shape, values.shape, strict=False)):
+            raise ParameterError(f"weights {weight.shape} do not fit values {values.shape}")
+        given = np.broadcast_to(weight, values.shape)
         least = max(math.cos(math.radians(grazing)), 1e-6)
         with np.errstate(invalid="ignore"):
             good = (values >= 0).all(1) & np.isfinite(values).all(1) & (given >= 0).all(1) & (given.sum(1) > 0)
@@ -80,6 +83,11 @@ class Samples:
             wi[good].astype(np.float32), wo[good].astype(np.float32), values[good], chosen / chosen.mean(), name,
             source, grazing, int(np.count_nonzero(~good)),
         )  # fmt: skip
+
+    @property
+    def is_monochrome(self) -> bool:
+        """Whether the channels are copies of each other: one measurement, not three."""
+        return bool((self.values == self.values[:, :1]).all())
 
     def __getitem__(self, rows: Any) -> Samples:
         """Some of them."""
@@ -159,4 +167,14 @@ def _cells(theta: Array) -> Array:
 def from_rows(angles: Array, spectra: Array, wavelengths: Array, grazing: float, name: str, source: str) -> Samples:
     """From the rows of a goniometer: angles (N, 4) in radians and spectra (N, W) in 1/sr; each row counts the same."""
     wi, wo = (from_spherical(angles[:, k], angles[:, k + 1]) for k in (0, 2))
-    return Samples.of(wi, wo, np.maximum(spectra @ rgb_weights(wavelengths), 0), 1.0, grazing, name, source)
+    values = np.maximum(spectra @ rgb_weights(wavelengths), 0)  # of measured colours outside the gamut
+    values[~(spectra >= 0).all(1)] = np.nan
+    return Samples.of(wi, wo, values, 1.0, grazing, name, source)
+
+
+def _numbers(given: ArrayLike) -> Array:
+    """In single precision at least. Raises ParameterError."""
+    array = np.asarray(given)
+    if array.dtype.kind not in "fiub":
+        raise ParameterError(f"samples are numbers, got {array.dtype}")
+    return np.asarray(array, np.result_type(array, np.float32))

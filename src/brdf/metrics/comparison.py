@@ -132,7 +132,8 @@ RANKINGS: dict[str, Callable[[Comparison], tuple[float, ...]]] = {
     "surroundings": lambda c: (c.surroundings_rmse, -c.psnr),
     "psnr": lambda c: (-c.psnr, c.relative_rmse),
     "delta-e": lambda c: (c.delta_e.mean, -c.psnr),
-    "log": lambda c: (c.metrics["log relative"], -c.psnr),
+    "log": lambda c: (c.metrics["log"], -c.psnr),
+    "log-relative": lambda c: (c.metrics["log relative"], -c.psnr),
 }
 """What to sort comparisons by, the least first. The first is the default: of the metrics here it agrees best with what
 people see (docs/comparing.md)."""

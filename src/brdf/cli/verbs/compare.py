@@ -20,7 +20,9 @@ def command(
     out: Annotated[
         Path | None, typer.Option("-o", "--output", help="Figure: .png, .svg, .html, .pdf. [NAME-compared.png]")
     ] = None,
-    by: Annotated[str, typer.Option(help="Rank several by: surroundings, psnr, delta-e or log.")] = "surroundings",
+    by: Annotated[
+        str, typer.Option(help="Rank several by: surroundings, psnr, delta-e, log or log-relative.")
+    ] = "surroundings",
     no_figure: Annotated[bool, typer.Option("--no-figure", help="The numbers alone.")] = False,
     json: arguments.AsJson = False,
 ) -> None:
