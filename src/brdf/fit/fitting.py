@@ -16,7 +16,7 @@ from ..metrics import direction_pairs
 from ..reflectance import Reflectance
 from .covariance import certainty, sandwich
 from .data import Data, data_of
-from .equations import Equations, Normal
+from .equations import Equations, Normal, rows_of
 from .levenberg import Problem, Search, advance, begin
 from .losses import LOSSES, Loss, loss_named
 from .multistart import FEW, distinct, energy_of, polish, run_rounds, same, start_points, stratified
@@ -176,9 +176,10 @@ class _Fit:
         samples, loss = self.samples, self.loss
         made.named(f"{samples.name} by {name}" if samples.name else name, f"fitted to {samples.source or samples.name}")
         fitted = np.asarray(made(samples.wi, samples.wo))
-        equations = Equations(self.template, samples, loss, "float64")
-        cost = equations(numbers).cost
-        shared = max(int(self.free[list(equations.active(channel))].sum()) for channel in range(3))
+        cosine = samples.wi[:, 2:]
+        residual = loss.scale(fitted * cosine) - loss.scale(samples.values * cosine)
+        cost = 0.5 * float(np.sum(samples.weight * np.square(residual), dtype=np.float64))
+        shared = max(int(self.free[list(active)].sum()) for active in rows_of(self.template, loss).active)
         enough = len(used) > shared
         sure = certainty(
             self.components, numbers, self.free, *sandwich(made, used, loss, numbers, self.robust, scale),
