@@ -89,14 +89,22 @@ def _on_cluster(
         distributed: Any = importlib.import_module("distributed")
     except ImportError:
         raise MissingExtraError("fitting on a cluster", "cluster") from None
-    try:
-        client = distributed.Client(address, timeout=CONNECTING, set_as_default=False)
-    except (OSError, ValueError, TypeError) as error:
-        raise ParameterError(
-            f"no Dask scheduler answers at {address} ({error}); start one with `dask scheduler`"
-        ) from None
-    with client:
+    with _client(distributed, address) as client:
         futures = {client.submit(make, task, pure=False, retries=RETRIES): task for task in tasks}
         for future in distributed.as_completed(futures, loop=client.loop):
             wrong = future.exception()
             yield futures[future], future.result() if wrong is None else f"{type(wrong).__name__}: {wrong}"
+
+
+def _client(distributed: Any, address: str) -> Any:
+    # In two steps: who only calls the class has nothing to close when that fails, and left to the interpreter's end
+    # a half-made client waits 40 seconds for its own thread and complains.
+    client: Any = distributed.Client.__new__(distributed.Client)
+    try:
+        client.__init__(address, timeout=CONNECTING, set_as_default=False)
+    except (OSError, ValueError, TypeError) as error:
+        client.close()
+        raise ParameterError(
+            f"no Dask scheduler answers at {address} ({error}); start one with `dask scheduler`"
+        ) from None
+    return client
