@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -11,6 +12,7 @@ import brdf as package
 
 Command = Callable[..., Any]
 TRUTH = "Lambertian:albedo=.2 + Ward:ks=.3,alpha=.15"
+DATA = "Lambertian:albedo=.3"
 
 
 def test_the_fitted_material_is_written(brdf: Command, tmp_path: Path) -> None:
@@ -52,11 +54,17 @@ def test_mistakes(refused: Callable[..., str], tmp_path: Path) -> None:
     assert "no such file" in refused("fit", "nowhere/x.binary", "--model", "Ward")
     refused("fit", TRUTH, "--model", "Ward", "-o", "nowhere/x.safetensors")
     refused("fit", TRUTH, "--model", "Ward", "--metric", "l7")
+    assert "written as .safetensors" in refused("fit", TRUTH, "--model", "Ward", "-o", "r.png")
+    for option, wrong in (("--lobes", "²"), ("--budget", "²"), ("--seed", "-1"), ("--jobs", "0"), ("--metric", "l7")):
+        assert option.strip("-") in refused("fit", TRUTH, "--model", "Ward", option, wrong)
+        assert option.strip("-") in refused("fit", TRUTH, DATA, "--model", "Ward", option, wrong)
+    for nothing in ("", ","):
+        assert "no model is named" in refused("fit", TRUTH, "--model", nothing)
     assert sorted(p.name for p in tmp_path.iterdir()) == ["empty.binary"]
 
 
 def test_several_make_a_folder_with_a_table_and_a_page(brdf: Command, tmp_path: Path) -> None:
-    arguments = ("fit", TRUTH, "Lambertian:albedo=.3", "--model", "Ward,Lambertian", "--budget", "1")
+    arguments = ("fit", TRUTH, DATA, "--model", "Ward,Lambertian", "--budget", "1")
     outcome = brdf(*arguments, "-o", "many")
     assert outcome.code == 0
     assert "nearest" in outcome.out
@@ -72,3 +80,35 @@ def test_what_fails_is_told_when_the_rest_is_done(brdf: Command, tmp_path: Path)
     assert outcome.code == 2
     assert "empty.binary" in outcome.err
     assert len(json.loads(outcome.out)["fits"]) == 1
+
+
+def test_several_failures_are_told_in_order(brdf: Command, tmp_path: Path) -> None:
+    for name in ("a.binary", "b.binary"):
+        (tmp_path / name).touch()
+    outcome = brdf("fit", "a.binary", "b.binary", "--model", "Ward", "-o", "many")
+    assert (outcome.code, outcome.out) == (2, "")
+    first, second, last = outcome.err.splitlines()
+    assert first.startswith("brdf: a.binary, Ward: ")
+    assert second.startswith("brdf: b.binary, Ward: ")
+    assert last == "brdf: 2 of 2 fits failed, named above"
+
+
+def test_files_of_one_name_are_told_apart(brdf: Command, tmp_path: Path) -> None:
+    paths = [tmp_path / sub / "x.safetensors" for sub in ("s1", "s2")]
+    for path, albedo in zip(paths, (0.2, 0.5), strict=True):
+        path.parent.mkdir()
+        package.models.Lambertian(albedo=albedo).save(path)
+    outcome = brdf("fit", *paths, "--model", "Lambertian,Ward", "--budget", "1", "-o", "many", "--seed", "1")
+    assert sum(int(line.split()[-1]) for line in outcome.out.splitlines()[2:4]) >= 2  # each is nearest to something
+    page = (tmp_path / "many" / "index.html").read_text("utf-8")
+    assert page.count("data:image/png") == 6
+    assert all(f"<h3>{path}</h3>" in page for path in paths)
+    rows = list(csv.DictReader((tmp_path / "many" / "fits.csv").read_text("utf-8").splitlines()))
+    assert [row["path"] for row in rows] == [str(path) for path in paths for _ in range(2)]
+
+
+def test_photographs_of_a_ball_among_many(brdf: Command, data: Path, tmp_path: Path) -> None:
+    ball = data / "spheres" / "diligent_ball"
+    outcome = brdf("fit", ball, DATA, "--model", "Ward", "--budget", "1", "-o", "many", "--jobs", "2", "--json")
+    assert outcome.code == 0, outcome
+    assert [one["data"] for one in json.loads(outcome.out)["fits"]] == ["diligent_ball", DATA]

@@ -9,14 +9,15 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 import brdf
 import fit_tasks
-from brdf.errors import FileError, MissingExtraError, ParameterError, UnknownFormatError
+from brdf.errors import BrdfError, FileError, MissingExtraError, ParameterError, UnknownFormatError
+from brdf.fit import Data, data_of, fit_many
 from brdf.fit import batch as batch_module
-from brdf.fit import fit_many
 from brdf.fit.table import write_table
 from brdf.fit.workers import outcomes
 from fit_tasks import die, die_once, square
@@ -92,14 +93,88 @@ def test_what_fails_does_not_stop_the_others(tmp_path: Path) -> None:
     assert sorted(p.suffix for p in (tmp_path / "fits").iterdir()) == [".json", ".safetensors"]
 
 
-def test_files_of_one_name_do_not_overwrite_each_other(tmp_path: Path) -> None:
+def test_files_of_one_name_do_not_overwrite_each_other(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for sub, albedo in (("a", 0.2), ("b", 0.5)):
         (tmp_path / sub).mkdir()
         brdf.models.Lambertian(albedo=albedo).save(tmp_path / sub / "x.safetensors")
     specs = [str(tmp_path / sub / "x.safetensors") for sub in "ab"]
     done = fit_many(specs, ["Lambertian"], tmp_path / "fits", **OPTIONS)
     assert [one["parameters"]["albedo_r"]["value"] for one in done.fits] == pytest.approx([0.2, 0.5])
+    assert [one["path"] for one in done.fits] == specs
     assert len({one["file"] for one in done.fits}) == 2
+    for sub, one in zip("ab", done.fits, strict=True):  # what a fit is called depends on nothing else in the command
+        monkeypatch.chdir(tmp_path / sub)
+        again = fit_many(["x.safetensors"], ["Lambertian"], tmp_path / "fits", **OPTIONS)
+        assert (again.kept, again.fits) == (1, [one])
+
+
+def test_a_changed_folder_is_fitted_again(tmp_path: Path) -> None:
+    folder = tmp_path / "pictures"
+    folder.mkdir()
+    for content, kept in (("a", 0), ("a", 1), ("b", 0)):
+        (folder / "picture").write_text(content)
+        assert fit_many([str(folder)], ["Lambertian"], tmp_path / "fits", read=grey, **OPTIONS).kept == kept
+
+
+def grey(spec: str, grazing: float) -> Data:
+    return data_of(DATA[0], grazing)
+
+
+def test_a_folder_of_other_things_is_left_alone(tmp_path: Path) -> None:
+    for name in ("probe.json", "index.html"):
+        (tmp_path / name).write_text("mine")
+    with pytest.raises(FileError, match=r"holds other files \(index.html\) and no fit; give a new or an empty folder"):
+        fit_many(DATA[:1], ["Ward"], tmp_path, **OPTIONS)
+    made = tmp_path / "fits"
+    fit_many(DATA[:1], ["Ward"], made, **OPTIONS)
+    (made / "probe.json").write_text("mine")
+    assert fit_many(DATA[:1], ["Ward"], made, **OPTIONS).kept == 1
+    assert {(p / "probe.json").read_text() for p in (tmp_path, made)} == {"mine"}
+
+
+def test_what_fails_unexpectedly_does_not_stop_the_others(tmp_path: Path) -> None:
+    def read(spec: str, grazing: float) -> Data:
+        if spec == DATA[0]:
+            raise IndexError("out of\nrange")
+        return data_of(spec, grazing)
+
+    done = fit_many(DATA, ["Ward"], tmp_path / "fits", read=read, **OPTIONS)
+    assert [one["data"] for one in done.fits] == DATA[1:]
+    ((what, why),) = done.failures.items()
+    assert what == f"{DATA[0]}, Ward"
+    assert why.startswith("unexpected IndexError: out of range; please report it")
+
+
+def test_failures_are_in_the_order_of_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(batch_module, "outcomes", lambda make, tasks, *rest: [(t, "no") for t in reversed(tasks)])
+    done = fit_many(DATA, ["Ward", "GGX"], tmp_path / "fits", **OPTIONS)
+    assert list(done.failures) == [f"{d}, {m}" for d in DATA for m in ("Ward", "GGX")]
+
+
+@pytest.mark.parametrize(
+    ("models", "options", "message"),
+    [
+        ([], {}, "no model is named"),
+        (["Ward", "Foo"], {}, "unknown model 'Foo'"),
+        (["Ward"], {"metric": "foo"}, "unknown metric 'foo'"),
+        (["Ward"], {"robust": "foo"}, "unknown robust loss 'foo'"),
+        (["Ward"], {"robust": "huber", "metric": "image"}, "the image metric has no robust form"),
+        (["Ward"], {"lobes": 9}, "a fit has 1 to 3 lobes, got 9"),
+        (["Ward"], {"lobes": "2"}, "lobes must be 1 to 3 or \"auto\", got '2'"),
+        (["Ward"], {"budget": 0}, "a fit begins 1 to 4096 searches, got 0"),
+        (["Ward"], {"seed": -1}, "the seed must be at least 0, got -1"),
+        (["Ward"], {"grazing": 91.0}, r"the grazing angle must lie in \(0, 90\] degrees, got 91"),
+    ],
+)
+def test_wrong_options_are_told_before_anything_is_read(
+    tmp_path: Path, models: list[str], options: dict[str, Any], message: str
+) -> None:
+    def never(spec: str, grazing: float) -> Data:
+        raise AssertionError("read")
+
+    with pytest.raises(BrdfError, match=message):
+        fit_many(DATA, models, tmp_path / "fits", read=never, **options)
+    assert not (tmp_path / "fits").exists()
 
 
 def test_processes_share_the_work() -> None:

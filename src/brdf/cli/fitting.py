@@ -6,10 +6,13 @@ import contextlib
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import BrdfError
 from . import output
+
+if TYPE_CHECKING:
+    from ..fit import Data
 
 TABLE = "fits.csv"
 
@@ -31,45 +34,60 @@ def fit_folder(
         require_kind(table)
         output.require_writable(table)
     with _bar() as progress:
-        batch = fit_many(data, models, folder, jobs=jobs, scheduler=scheduler, progress=progress, **options)
+        batch = fit_many(
+            data, models, folder, jobs=jobs, scheduler=scheduler, read=read_data, progress=progress, **options
+        )
     if batch.fits:
         place = table or folder / TABLE
         write_table(batch.fits, place)
         with output.working("drawing"):
-            page = write_page(batch.fits, folder, _by_name(data))
+            page = write_page(batch.fits, folder)
         files = {"folder": str(folder), "table": str(place), "page": str(page)}
         if json:
             output.print_json({"fits": batch.fits, "kept": batch.kept, "failures": batch.failures, **files})
         else:
             _print(batch.fits, batch.kept)
             print(place.resolve(), page.resolve(), sep="\n")
-    if batch.failures:
-        first = next(iter(batch.failures.items()))
-        more = f" and {len(batch.failures) - 1} more" if len(batch.failures) > 1 else ""
-        for what, why in list(batch.failures.items())[1:]:
-            output.note(f"{what}: {why}")
-        raise FailedFitsError(f"{first[0]}: {first[1]}{more}")
+    lines = [f"{what}: {why}" for what, why in batch.failures.items()]
+    if len(lines) == 1:
+        raise FailedFitsError(lines[0])
+    if lines:
+        for line in lines:
+            output.note(line)
+        raise FailedFitsError(f"{len(lines)} of {len(batch.fits) + len(lines)} fits failed, named above")
 
 
-def _by_name(data: Sequence[str]) -> dict[str, str]:
-    """What to load each material by: its name is its file's stem, or its own."""
-    return {Path(spec).stem: spec for spec in data} | {spec: spec for spec in data}
+def read_data(spec: str, grazing: float) -> Data:
+    """A material, or photographs of a ball: a folder with a list of lights."""
+    from ..fit import Data, data_of
+
+    if Path(spec).is_dir() and any(Path(spec).glob("light*.txt")):
+        from ..capture import sphere_samples
+
+        return Data(sphere_samples(spec, grazing=grazing), None)
+    return data_of(spec, grazing)
 
 
 def _print(fits: list[dict[str, Any]], kept: int) -> None:
     """The mean error of each model, and in how many materials it is the nearest."""
     metrics = list(dict.fromkeys(name for one in fits for name in one["errors"]))
     models = list(dict.fromkeys(one["model"] for one in fits))
-    least = {one["data"]: min(o["cost"] for o in fits if o["data"] == one["data"]) for one in fits}
+    least = {one["path"]: min(o["cost"] for o in fits if o["path"] == one["path"]) for one in fits}
     rows = []
     for model in models:
         own = [one for one in fits if one["model"] == model]
-        means = [sum(o["errors"].get(m, 0.0) for o in own) / len(own) for m in metrics]
-        wins = sum(one["cost"] == least[one["data"]] for one in own)
-        rows.append((model, f"{len(own)}", *(f"{mean:.4g}" for mean in means), f"{wins}"))
+        means = [_mean([o["errors"].get(m) for o in own]) for m in metrics]
+        wins = sum(one["cost"] == least[one["path"]] for one in own)
+        rows.append((model, f"{len(own)}", *means, f"{wins}"))
     output.print_table(("model", "fits", *(f"mean {m}" for m in metrics), "nearest"), rows)
     if kept:
         print(f"{kept} of {len(fits)} fits were there already")
+
+
+def _mean(errors: Sequence[float | None]) -> str:
+    """Of those there are: photographs have no error in the image metric."""
+    known = [error for error in errors if error is not None]
+    return f"{sum(known) / len(known):.4g}" if known else ""
 
 
 @contextlib.contextmanager

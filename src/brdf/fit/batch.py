@@ -11,7 +11,8 @@ import hashlib
 import json
 import os
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -20,13 +21,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .. import __version__, container
-from ..errors import BrdfError, CorruptFileError, FileError, ParameterError
+from ..errors import BrdfError, CorruptFileError, FileError, ParameterError, UnknownNameError
+from ..loading import is_file
 from ..reflectance import Reflectance
 from ..threads import cores
 from .data import Data, data_of
-from .fitting import fit
+from .fitting import _starts, fit
+from .losses import LOSSES
+from .result import IMAGE
+from .robust import require_known
 from .samples import GRAZING
+from .template import template_of
 from .workers import outcomes
+
+Read = Callable[[str, float], Data]
+"""From what names data, and the grazing angle, to the data."""
+
+_FIT = re.compile(r".+--.+-[0-9a-f]{8}\.safetensors")
+"""A material of a fit: what is written first into a folder of fits."""
 
 
 @dataclass(frozen=True)
@@ -34,19 +46,26 @@ class Task:
     """One fit to make."""
 
     data: str
-    """As `brdf.load` takes it."""
+    """As it was given."""
+    path: str
+    """The same wherever one stands: of a file or a folder its absolute path."""
     model: str
     options: tuple[tuple[str, Any], ...]
     content: str
-    """A digest of the data's file: a changed file is fitted again."""
-    key: str = ""
-    """The stem of its files."""
+    """A digest of the data's file or folder: what has changed is fitted again."""
+
+    @property
+    def key(self) -> str:
+        """The stem of its files: of this path and model alone, whatever else is fitted."""
+        digest = hashlib.sha256(f"{self.path}\n{self.model}".encode()).hexdigest()[:8]
+        name = Path(self.path).stem if os.path.isabs(self.path) else self.path
+        return f"{_slug(name)}--{_slug(self.model)}-{digest}"
 
     def identity(self) -> dict[str, Any]:
         """What a finished fit must agree in to be kept."""
         options = {name: list(v) if isinstance(v, (list, tuple)) else v for name, v in self.options}
         return {
-            "data": self.data,
+            "data": self.path,
             "model": self.model,
             "options": options,
             "content": self.content,
@@ -69,11 +88,11 @@ class Batch:
 
     folder: Path
     fits: list[dict[str, Any]]
-    """`FitResult.numbers()` of every fit, with `file`, in the order of data and models."""
+    """`FitResult.numbers()` of every fit, with `path`, of its data, and `file`, in the order of data and models."""
     kept: int
     """How many of them an earlier run had made."""
     failures: dict[str, str]
-    """What went wrong, by data and model."""
+    """What went wrong, by data and model, in their order."""
 
 
 def fit_many(
@@ -83,6 +102,7 @@ def fit_many(
     *,
     jobs: int = 1,
     scheduler: str | None = None,
+    read: Read = data_of,
     progress: Callable[[int, int, str], None] = lambda done, total, what: None,
     **options: Any,
 ) -> Batch:
@@ -90,13 +110,15 @@ def fit_many(
 
     `jobs` processes share the cores; with `scheduler`, the address of a Dask scheduler, its workers fit (they must see
     the files of `data`). Fits that the folder holds already, of the same data and options, are kept. `options` are
-    those of `fit`, and `grazing`. `progress` is told how many fits of how many are done, and which was last.
+    those of `fit`. `read` makes data of each of `data`, in every process: a function that is found by its name.
+    `progress` is told how many fits of how many are done, and which was last.
 
     Fits that fail are in `failures`; the others go on. Raises FileError for a folder that cannot be written or holds
-    something else, ParameterError, MissingExtraError.
+    other files and no fit, ParameterError, UnknownNameError, MissingExtraError.
     """
     if jobs < 1:
         raise ParameterError(f"jobs must be at least 1, got {jobs}")
+    _require(models, **options)
     folder = Path(folder)
     tasks = _tasks(data, models, options)
     _prepare(folder)
@@ -104,72 +126,121 @@ def fit_many(
     kept, failures = len(finished), dict[str, str]()
     progress(len(finished), len(tasks), "")
     waiting = [task for task in tasks if task.key not in finished]
-    for task, outcome in _run(waiting, jobs, scheduler):
+    for task, outcome in outcomes(
+        functools.partial(make, read=read), waiting, jobs, scheduler, max(1, cores() // jobs)
+    ):
         if isinstance(outcome, Done):
             finished[task.key] = _keep(folder, task, outcome)
         else:
-            failures[f"{task.data}, {task.model}"] = outcome
+            failures[task.key] = outcome
         progress(len(finished) + len(failures), len(tasks), task.key)
-    return Batch(folder, [finished[t.key] for t in tasks if t.key in finished], kept, failures)
+    return Batch(
+        folder,
+        [finished[task.key] for task in tasks if task.key in finished],
+        kept,
+        {f"{task.data}, {task.model}": failures[task.key] for task in tasks if task.key in failures},
+    )
 
 
-def _run(tasks: list[Task], jobs: int, scheduler: str | None) -> Iterator[tuple[Task, Done | str]]:
-    yield from outcomes(make, tasks, jobs, scheduler, max(1, cores() // jobs))
+def _require(
+    models: Sequence[str], *, lobes: int | str = 1, metric: str = "l2", diffuse: bool | None = None,
+    fixed: Sequence[str] = (), grazing: float = GRAZING, robust: str | None = None, budget: str | int = "normal",
+    seed: int = 0,
+) -> None:  # fmt: skip
+    """What is wrong whatever the data are is said once, before anything is read or made."""
+    if not models:
+        raise ParameterError("no model is named; name one or more, as GGX,Ward; `brdf list models` has them all")
+    if metric != IMAGE and metric not in LOSSES:
+        raise UnknownNameError("metric", metric, [*LOSSES, IMAGE])
+    if robust is not None:
+        require_known(robust)
+        if metric == IMAGE:
+            raise ParameterError("the image metric has no robust form; choose another metric or leave the loss out")
+    if not 0 < grazing <= 90:
+        raise ParameterError(f"the grazing angle must lie in (0, 90] degrees, got {grazing:g}")
+    if seed < 0:
+        raise ParameterError(f"the seed must be at least 0, got {seed}")
+    _starts(budget)
+    if not isinstance(lobes, int) and lobes != "auto":
+        raise ParameterError(f'lobes must be 1 to 3 or "auto", got {lobes!r}')
+    for model in models:
+        template_of(model, lobes if isinstance(lobes, int) else 1, diffuse)
 
 
-def make(task: Task) -> Done | str:
+def make(task: Task, read: Read = data_of) -> Done | str:
     """Carry out one task; what is wrong with it as one line."""
     try:
         options = dict(task.options)
-        result = fit(_data(task.data, options.pop("grazing", GRAZING), task.content), task.model, **options)
+        data = _data(task.data, options.pop("grazing", GRAZING), task.content, read)
+        result = fit(data, task.model, **options)
     except BrdfError as error:
         return " ".join(str(error).split())
+    except Exception as error:  # a mistake of ours costs this fit, not those that wait behind it
+        what = " ".join(f"{type(error).__name__}: {error}".split())
+        return f"unexpected {what}; please report it with the traceback of this fit alone, with BRDF_DEBUG=1"
     return Done(result.numbers(), *result.reflectance.state())
 
 
 @functools.lru_cache(maxsize=1)
-def _data(spec: str, grazing: float, content: str) -> Data:
+def _data(spec: str, grazing: float, content: str, read: Read) -> Data:
     """Read once for all models that are fitted to it one after the other."""
-    return data_of(spec, grazing)
+    return read(spec, grazing)
 
 
 def _tasks(data: Sequence[str], models: Sequence[str], options: Mapping[str, Any]) -> list[Task]:
     given = tuple(sorted((name, tuple(v) if isinstance(v, list) else v) for name, v in options.items()))
     found: dict[str, Task] = {}
     for spec in data:
-        content = _digest(spec)
+        place, member = _place(spec)
+        path, content = (os.path.abspath(place) + member, _digest(place)) if place else (spec, "")
         for model in models:
-            key = f"{_slug(Path(spec).stem if os.path.isfile(spec) else spec)}--{_slug(model)}"
-            if key in found and (found[key].data, found[key].model) != (spec, model):
-                key += "-" + hashlib.sha256(f"{spec}\n{model}".encode()).hexdigest()[:8]
-            found[key] = Task(spec, model, given, content, key)
+            task = Task(spec, path, model, given, content)
+            found.setdefault(task.key, task)
     return list(found.values())
+
+
+def _place(spec: str) -> tuple[str, str]:
+    """The file or folder that is read, and which of its materials, `@NAME`; empty for what is no file."""
+    if is_file(spec):
+        return spec, ""
+    file, at, member = spec.rpartition("@")
+    return (file, at + member) if at and is_file(file) else ("", "")
 
 
 def _slug(text: str) -> str:
     return re.sub(r"[^A-Za-z0-9._@-]+", "-", text).strip("-.")[:80] or "data"
 
 
-def _digest(spec: str) -> str:
-    if not os.path.isfile(spec):
-        return ""
+def _digest(place: str) -> str:
+    """Of a file's content; of a folder the names and the contents of the files in it."""
     try:
-        with open(spec, "rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
+        if not os.path.isdir(place):
+            return _content(place)
+        files = sorted(path for path in Path(place).iterdir() if path.is_file())
+        return hashlib.sha256("\n".join(f"{_content(path)} {path.name}" for path in files).encode()).hexdigest()
     except OSError as error:
-        raise FileError(spec, f"cannot be read ({error.strerror or error}).") from None
+        raise FileError(place, f"cannot be read ({error.strerror or error}).") from None
+
+
+def _content(path: str | Path) -> str:
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def _prepare(folder: Path) -> None:
+    """Make the folder, or see that it can be written and is one of fits: a page and a table in it are replaced."""
     if folder.exists() and not folder.is_dir():
         raise FileError(folder, "is a file; give a folder for the fits with -o.")
     try:
         folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+        names = [path.name for path in folder.iterdir() if not path.name.startswith(".")]
     except OSError as error:
-        raise FileError(folder, f"cannot be made ({error.strerror or error}).") from None
-    with container.replacing(folder / "probe.json") as probe:
-        probe.touch()
-    (folder / "probe.json").unlink()
+        problem = f"cannot be written ({error.strerror or error}); choose another place with -o."
+        raise FileError(folder, problem) from None
+    if names and not any(map(_FIT.fullmatch, names)):
+        raise FileError(folder, f"holds other files ({min(names)}) and no fit; give a new or an empty folder with -o.")
 
 
 def _finished(folder: Path, task: Task) -> dict[str, Any] | None:
@@ -188,7 +259,7 @@ def _keep(folder: Path, task: Task, done: Done) -> dict[str, Any]:
     """Write a fit: its numbers last, which say that it is whole."""
     material = folder / f"{task.key}.safetensors"
     container.save(material, done.header, done.arrays)
-    numbers: dict[str, Any] = _without_infinities(done.numbers) | {"file": material.name}
+    numbers: dict[str, Any] = _without_infinities(done.numbers) | {"path": task.path, "file": material.name}
     with container.replacing(folder / f"{task.key}.json") as temporary:
         text = json.dumps({"task": task.identity(), "fit": numbers}, indent=1, ensure_ascii=False, allow_nan=False)
         temporary.write_text(text + "\n", "utf-8")

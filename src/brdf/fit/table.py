@@ -12,7 +12,10 @@ from typing import Any
 from ..container import replacing
 from ..errors import MissingExtraError, UnknownFormatError
 
-FACTS = ("data", "model", "lobes", "metric", "samples", "cost", "bic", "agreeing", "starts", "seed", "seconds", "file")
+FACTS = (
+    "data", "path", "model", "lobes", "metric", "samples", "cost", "bic", "agreeing", "starts", "seed", "seconds",
+    "file",
+)  # fmt: skip
 """Columns before the errors and the parameters."""
 
 KINDS = (".csv", ".parquet")

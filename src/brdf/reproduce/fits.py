@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -30,16 +31,17 @@ def panel(m: Reflectance, label: str, size: int = SIZE) -> Panel:
     return Panel(np.round(255 * picture).astype(np.uint8), label)
 
 
-def write_page(fits: Sequence[Mapping[str, Any]], folder: Path, data: Mapping[str, str]) -> Path:
-    """`index.html` in the folder of the fits; `data`: what each fit's data are to be loaded by, by their name."""
+def write_page(fits: Sequence[Mapping[str, Any]], folder: Path) -> Path:
+    """`index.html` in the folder of the fits."""
     report = Report(
         "fits", "Fits", f"{len(fits)} fits by brdf fit", {"metric": fits[0]["metric"], "starts": fits[0]["starts"]}
     )
     report.section("Errors", "The distance between fit and data in each metric; of a material the least first.")
     metrics = list(dict.fromkeys(name for one in fits for name in one["errors"]))
-    ranked = sorted(fits, key=lambda one: (one["data"], one["cost"]))
+    names = _names(fits)
+    ranked = sorted(fits, key=lambda one: (names[one["path"]], one["cost"]))
     rows = [
-        [one["data"], one["model"], *(one["errors"].get(m) for m in metrics), one["agreeing"], one["seconds"]]
+        [names[one["path"]], one["model"], *(one["errors"].get(m) for m in metrics), one["agreeing"], one["seconds"]]
         for one in ranked
     ]
     numbers = [
@@ -51,9 +53,9 @@ def write_page(fits: Sequence[Mapping[str, Any]], folder: Path, data: Mapping[st
     report.section("Spheres", f"The data first, then the fits, light {LIGHT}° from the viewer.")
     shown: dict[str, list[Panel]] = {}
     for one in ranked:
-        name = one["data"]
+        name = names[one["path"]]
         if name not in shown:
-            shown[name] = _of_data(data.get(name, ""))
+            shown[name] = _of_data(one["path"])
         shown[name].append(panel(Reflectance.restore(folder / one["file"]), one["model"]))
     report.figure("spheres", "radiance π f cos as sRGB", shown)
     with replacing(folder / "index.html") as temporary:
@@ -61,8 +63,16 @@ def write_page(fits: Sequence[Mapping[str, Any]], folder: Path, data: Mapping[st
     return folder / "index.html"
 
 
-def _of_data(spec: str) -> list[Panel]:
+def _names(fits: Sequence[Mapping[str, Any]]) -> dict[str, str]:
+    """What to call the data of each path: the path itself where others have the same name."""
+    names = {one["path"]: one["data"] for one in fits}
+    count = Counter(names.values())
+    return {path: name if count[name] == 1 else path for path, name in names.items()}
+
+
+def _of_data(path: str) -> list[Panel]:
+    """None of photographs, which are no material."""
     try:
-        return [panel(load(spec), "data")] if spec else []
+        return [panel(load(path), "data")]
     except BrdfError:
         return []

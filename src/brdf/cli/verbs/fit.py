@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from .. import arguments, output
-from ..fitting import fit_folder
+from ..fitting import fit_folder, read_data
 
 if TYPE_CHECKING:
-    from ...fit import Data, FitResult
+    from ...fit import FitResult
 
 
 def command(
@@ -39,7 +40,7 @@ def command(
     budget: Annotated[
         str, typer.Option(metavar="EFFORT", help="quick, normal or thorough (4, 16, 64 starts), or a number of starts.")
     ] = "normal",
-    seed: Annotated[int, typer.Option(metavar="N", help="Of the starts.")] = 0,
+    seed: Annotated[int, typer.Option(min=0, metavar="N", help="Of the starts.")] = 0,
     out: Annotated[
         Path | None,
         typer.Option(
@@ -52,7 +53,7 @@ def command(
     report: Annotated[
         Path | None, typer.Option("--report", metavar="FILE", help="A figure of the fit: .html, .png, .svg, .pdf.")
     ] = None,
-    jobs: Annotated[int, typer.Option(metavar="N", help="Processes that share many fits.")] = 1,
+    jobs: Annotated[int, typer.Option(min=1, metavar="N", help="Processes that share many fits.")] = 1,
     scheduler: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="A Dask scheduler whose workers fit, as tcp://host:8786.")
     ] = None,
@@ -80,7 +81,7 @@ def command(
 
     options: dict[str, Any] = {
         "lobes": _lobes(lobes), "metric": metric, "diffuse": diffuse, "fixed": fix or (), "robust": robust,
-        "budget": int(budget) if budget.isdigit() else budget, "seed": seed,
+        "budget": int(budget) if re.fullmatch(r"\d{1,9}", budget) else budget, "seed": seed,
     }  # fmt: skip
     models = [name.strip() for name in model.split(",") if name.strip()]
     if len(data) == len(models) == 1 and scheduler is None and table is None:
@@ -94,29 +95,21 @@ def command(
 def _lobes(text: str) -> int | str:
     from ...errors import ParameterError
 
-    if text != "auto" and not text.isdigit():
+    if text not in ("1", "2", "3", "auto"):
         raise ParameterError(f"--lobes must be 1 to 3 or auto, got {text!r}")
     return text if text == "auto" else int(text)
-
-
-def _read(spec: str, grazing: float) -> Data:
-    """A material, or photographs of a ball: a folder with a list of lights."""
-    from ...fit import Data, data_of
-
-    if Path(spec).is_dir() and any(Path(spec).glob("light*.txt")):
-        from ...capture import sphere_samples
-
-        return Data(sphere_samples(spec, grazing=grazing), None)
-    return data_of(spec, grazing)
 
 
 def _fit_one(
     spec: str, model: str, grazing: float, options: dict[str, Any], out: Path | None, report: Path | None, json: bool
 ) -> None:
+    from ...errors import UnknownFormatError
     from ...fit import fit
 
+    if out is not None and out.suffix.lower() != ".safetensors":
+        raise UnknownFormatError(out, "fits are written as .safetensors; `brdf convert` makes other formats of those.")
     with output.working(f"reading {Path(spec).name}") as say:
-        data = _read(spec, grazing)
+        data = read_data(spec, grazing)
         path = out or arguments.named_file(f"{data.samples.name}-{model}", ".safetensors")
         output.require_writable(path)
         if report is not None:
