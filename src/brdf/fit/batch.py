@@ -28,6 +28,7 @@ from ..threads import cores
 from .data import Data, data_of
 from .fitting import _starts, fit
 from .losses import LOSSES
+from .parameters import components
 from .result import IMAGE
 from .robust import require_known
 from .samples import GRAZING
@@ -164,7 +165,12 @@ def _require(
     if not isinstance(lobes, int) and lobes != "auto":
         raise ParameterError(f'lobes must be 1 to 3 or "auto", got {lobes!r}')
     for model in models:
-        template_of(model, lobes if isinstance(lobes, int) else 1, diffuse)
+        # those of anisotropic data have more parameters
+        either = [template_of(model, lobes if isinstance(lobes, int) else 1, diffuse, given) for given in (True, False)]
+        known = {c.parameter for template in either for c in components(template)} if fixed else {}
+        for name in fixed:
+            if name not in known:
+                raise UnknownNameError(f"parameter of {model}", name, known)
 
 
 def make(task: Task, read: Read = data_of) -> Done | str:
