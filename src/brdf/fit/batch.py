@@ -218,10 +218,12 @@ def _slug(text: str) -> str:
 
 
 def _digest(place: str) -> str:
-    """Of a file's content; of a folder the names and the contents of the files in it."""
+    """Of a file's content; of a folder the names and the contents of its files; none of a pipe, read only once."""
     try:
-        if not os.path.isdir(place):
+        if os.path.isfile(place):
             return _content(place)
+        if not os.path.isdir(place):
+            return ""
         files = sorted(path for path in Path(place).iterdir() if path.is_file())
         return hashlib.sha256("\n".join(f"{_content(path)} {path.name}" for path in files).encode()).hexdigest()
     except OSError as error:
