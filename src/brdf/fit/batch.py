@@ -26,7 +26,7 @@ from ..loading import is_file
 from ..reflectance import Reflectance
 from ..threads import cores
 from .data import Data, data_of
-from .fitting import _starts, fit
+from .fitting import fit, starts_of
 from .losses import LOSSES
 from .parameters import components
 from .result import IMAGE
@@ -161,7 +161,7 @@ def _require(
         raise ParameterError(f"the grazing angle must lie in (0, 90] degrees, got {grazing:g}")
     if seed < 0:
         raise ParameterError(f"the seed must be at least 0, got {seed}")
-    _starts(budget)
+    starts_of(budget)
     if not isinstance(lobes, int) and lobes != "auto":
         raise ParameterError(f'lobes must be 1 to 3 or "auto", got {lobes!r}')
     for model in models:

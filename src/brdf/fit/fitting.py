@@ -64,7 +64,7 @@ def fit(
     Raises ParameterError, UnknownNameError, ReflectanceError.
     """
     begun = time.perf_counter()
-    starts = _starts(budget)
+    starts = starts_of(budget)
     if not isinstance(seed, (int, np.integer)) or seed < 0:
         raise ParameterError(f"a seed is a whole number from 0 on, got {seed!r}")
     if robust is not None:
@@ -93,7 +93,7 @@ def _label(model: Any) -> str:
     return str(getattr(model, "name", "") or type(model).__name__)
 
 
-def _starts(budget: str | int) -> int:
+def starts_of(budget: str | int) -> int:
     if isinstance(budget, str) and budget not in BUDGETS:
         raise UnknownNameError("budget", budget, BUDGETS)
     starts = BUDGETS[budget] if isinstance(budget, str) else budget
