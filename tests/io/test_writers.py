@@ -11,6 +11,7 @@ from tests.io.samples import csail, utia, zemax
 import brdf
 from brdf import io
 from brdf.errors import ReflectanceError, UnknownNameError
+from brdf.metrics.albedo import directional_albedo
 from brdf.models import GGX, Lambertian
 from helpers import random_directions
 
@@ -85,6 +86,16 @@ def test_the_integral_that_zemax_text_states_is_the_albedo(tmp_path):
     stated = [float(x) for x in re.findall(r"^TIS\s(\S+)", text, re.MULTILINE)]
     assert len(stated) == 18
     np.testing.assert_allclose(stated, 0.4, rtol=0.03)
+
+
+@pytest.mark.parametrize("spec", ["Minnaert", "Ward:ks=.4,alpha=.2", "chrome"])
+def test_zemax_text_keeps_albedos_of_what_grows_towards_the_horizon_or_is_narrow(spec, tmp_path):
+    m = brdf.load(spec)
+    io.write(m, tmp_path / "m.bsdf", "Zemax text")
+    written = io.read(tmp_path / "m.bsdf")
+    for angle in (0, 30, 60, 80):
+        albedo = directional_albedo(m, angle)
+        np.testing.assert_allclose(directional_albedo(written, angle), albedo, rtol=0.06, atol=0.015)
 
 
 def test_spectra_are_written_where_there_are_any(data, tmp_path):

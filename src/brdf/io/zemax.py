@@ -207,9 +207,19 @@ def _values(
 
 
 INCIDENCE = np.arange(0.0, 90, 5)
-RADIAL = np.array([0, 0.5, 1, 1.5, 2, 3, 4, 5, 6, 8, 10, 12.5, 15, 17.5, 20, *range(25, 181, 5)], np.float64)
+RADIAL = np.array(
+    [*(0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5, 0.75, 1, 1.5, 2, 3, 4, 5, 6, 8, 10, 12.5, 15, 17.5), *range(20, 181, 5)],
+    np.float64,
+)
 STEP = 10.0
 """Angles that are written, degrees; the last of azimuth and rotation."""
+
+HORIZON_MARGIN = 0.02
+"""How far above the horizon what is written at it is taken, rad: many reflectances grow without bound towards it, and
+readers interpolate from the last direction before it, 5 degrees away. Nearer, that raises the albedo of those."""
+
+_ROUNDING = 1e-6
+"""The same for a table's own angles, whose values are bounded: just so far that no direction is rounded below it."""
 
 
 def write(reflectance: Reflectance, path: Path) -> None:
@@ -219,11 +229,14 @@ def write(reflectance: Reflectance, path: Path) -> None:
     Raises ReflectanceError for what transmits or mirrors, FileError.
     """
     require_values(reflectance)
-    angles, symmetry = _angles_for(reflectance)
+    own = _own_layout(reflectance)
+    angles, symmetry = _angles_for(reflectance, own)
     rotation, incidence, azimuth, radial = (np.radians(angles[name]) for name in AXES)
     nodes = np.meshgrid(-rotation, incidence, radial, azimuth, indexing="ij")
-    wi, wo = AnisotropicSpecularBasis().directions(*nodes)
-    values = np.where(wo[..., 2:] > 0, reflectance(wi, wo), 0.0).swapaxes(2, 3)
+    basis, margin = AnisotropicSpecularBasis(), _ROUNDING if own else HORIZON_MARGIN
+    wo = basis.directions(*nodes)[1]
+    lifted = reflectance(*basis.directions(*basis.above_horizon(*nodes, margin=margin)))
+    values = np.where(wo[..., 2:] > -_ROUNDING, lifted, 0.0).swapaxes(2, 3)
     is_grey = bool(np.allclose(values, values[..., :1], rtol=1e-6, atol=0))
     channels = values[..., :1] if is_grey else np.asarray(rgb_to_xyz(values))
     spectral = "Monochrome" if is_grey else "XYZ"
@@ -242,12 +255,20 @@ def write(reflectance: Reflectance, path: Path) -> None:
             file.write("DataEnd\n")
 
 
-def _angles_for(reflectance: Reflectance) -> tuple[dict[str, Array], str]:
+def _own_layout(reflectance: Reflectance) -> Layout | None:
+    """Of a table over the angles of such a file."""
+    if isinstance(reflectance, Table) and isinstance(
+        reflectance.layout.basis, (SpecularBasis, AnisotropicSpecularBasis)
+    ):
+        return reflectance.layout
+    return None
+
+
+def _angles_for(reflectance: Reflectance, own: Layout | None) -> tuple[dict[str, Array], str]:
     """The lists of angles in degrees, in the order of `AXES`, and the symmetry."""
     turns = np.arange(0, 360 + STEP / 2, STEP)
-    layout = reflectance.layout if isinstance(reflectance, Table) else None
-    if layout is not None and isinstance(layout.basis, (SpecularBasis, AnisotropicSpecularBasis)):
-        nodes = [np.degrees(w.nodes(n)) for w, n in zip(layout.warps, layout.shape, strict=True)]
+    if own is not None:
+        nodes = [np.degrees(w.nodes(n)) for w, n in zip(own.warps, own.shape, strict=True)]
         incidence, radial, azimuth = nodes[-3:]
         rotation = turns[:1] if reflectance.isotropic else np.append(nodes[0], 360.0)
     else:
