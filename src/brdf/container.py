@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import CorruptFileError, FileError
+from .inputs import require_other
 
 SCHEMA = 1
 """Raised when a file written by this version cannot be read by earlier ones."""
@@ -30,16 +31,17 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
     Of a symbolic link, what it points to is replaced.
 
-    Raises FileError when the folder cannot be written.
+    Raises FileError when the folder cannot be written, or `path` is an input (see `inputs`).
     """
     target = Path(path)
+    require_other(target)
     try:
         place = Path(os.path.realpath(target))
         if target.is_dir():
             raise FileError(target, "is a folder; give a file name.")
         handle, name = tempfile.mkstemp(prefix=".brdf-", suffix=target.suffix, dir=place.parent)
     except OSError as error:
-        raise FileError(target, f"cannot be written ({error.strerror}); choose another place with -o.") from None
+        raise FileError(target, f"cannot be written ({error.strerror}); choose another place.") from None
     os.close(handle)
     temporary = Path(name)
     try:
@@ -57,13 +59,14 @@ def replacing_folder(path: str | os.PathLike[str]) -> Iterator[Path]:
     """A temporary folder beside `path`, renamed to it when the block ends well, removed when it does not.
 
     What was there goes only once the new one is in place; whether it may go is for the caller to say. Raises FileError
-    when the parent folder cannot be written.
+    when the parent folder cannot be written, or an input is in there (see `inputs`).
     """
     target = Path(path)
+    require_other(target)
     try:
         temporary = Path(tempfile.mkdtemp(prefix=".brdf-", dir=target.absolute().parent))
     except OSError as error:
-        raise FileError(target, f"cannot be written ({error.strerror}); choose another place with -o.") from None
+        raise FileError(target, f"cannot be written ({error.strerror}); choose another place.") from None
     new, old = temporary / "new", temporary / "old"
     new.mkdir()
     try:

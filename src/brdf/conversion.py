@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from . import io, metrics
+from . import inputs, io, metrics
 from .errors import ParameterError, UnknownNameError
 from .loading import load
 from .reflectance import Reflectance
@@ -79,11 +79,12 @@ def convert(
     """Write `source` (whatever `brdf.load` takes) to `target`, in the format of its extension or the one named.
 
     With a representation or options it is first baked (see `bake`). What was written is read back and compared with the
-    source. Raises as `load`, `bake` and `io.write`.
+    source. Raises as `load`, `bake` and `io.write`; FileError where `target` is the source.
     """
-    m = source if isinstance(source, Reflectance) else load(source)
-    io.write(bake(m, representation, **options) if representation or options else m, target, format)
-    written = io.read(target)
+    with inputs.kept():
+        m = source if isinstance(source, Reflectance) else load(source)
+        io.write(bake(m, representation, **options) if representation or options else m, target, format)
+        written = io.read(target)
     return Conversion(m, written, metrics.compare(m, written), bytes_on_disk(target))
 
 

@@ -11,7 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from brdf import models
+import brdf
+from brdf import SphereImages, io, models
+from brdf.errors import FileError
 
 Refused = Callable[..., str]
 
@@ -336,6 +338,67 @@ def test_an_existing_output_outlives_a_failed_run(refused: Refused, tmp_path: Pa
     refused(*arguments)
     assert kept.read_text() == "the work of last week"
     assert os.listdir(tmp_path) == [kept.name]
+
+
+@pytest.mark.parametrize(
+    ("written", "format", "arguments"),
+    [
+        ("x.safetensors", None, ["fit", "x.safetensors", "--model", "Ward", "-o", "x.safetensors"]),
+        ("x.safetensors", None, ["fit", "x.safetensors", "--model", "Ward", "--report", "linked.png"]),
+        ("x.safetensors", None, ["bake", "0.5*x.safetensors + GGX", "-o", "./x.safetensors"]),
+        ("x.bsdf", "RGL", ["convert", "x.bsdf", "x.bsdf", "--as", "table"]),
+        ("x.dat", None, ["convert", "x.dat", "linked.dat"]),
+        ("x.xml.bsdf", "RGL", ["export", "x.xml.bsdf", "x.xml"]),
+        ("x.pbrt", "RGL", ["export", "x.pbrt", "x.pbrt"]),
+        ("x.glsl.json", "safetensors", ["export", "x.glsl.json", "x.glsl"]),
+        ("x.png", "sphere images", ["render", "x.png", "--no-compare", "-o", "x.png"]),
+    ],
+    ids=lambda value: " ".join(value[:2]) if isinstance(value, list) else "",
+)
+def test_a_result_does_not_replace_its_input(
+    refused: Refused, tmp_path: Path, written: str, format: str | None, arguments: list[str]
+) -> None:
+    m = models.Lambertian()
+    io.write(SphereImages.bake(m, size=16) if format == "sphere images" else m, tmp_path / written, format)
+    for name in arguments:
+        if name.startswith("linked"):
+            (tmp_path / name).symlink_to(tmp_path / written)
+    files, content = sorted(os.listdir(tmp_path)), (tmp_path / written).read_bytes()
+    assert "is the input itself; choose another place" in refused(*arguments)
+    assert (tmp_path / written).read_bytes() == content
+    assert sorted(os.listdir(tmp_path)) == files
+
+
+def test_a_folder_of_results_does_not_replace_the_one_it_comes_from(refused: Refused, tmp_path: Path) -> None:
+    io.write(SphereImages.bake(models.Lambertian(), size=16), f"{tmp_path}/balls/")
+    files = sorted(os.listdir(tmp_path / "balls"))
+    refused("bake", "balls", "--as", "sphere-images", "--size", "8", "-o", "balls/")
+    assert "is the input itself" in refused("render", "balls", "--no-compare", "-o", f"balls/{files[0]}")
+    assert sorted(os.listdir(tmp_path / "balls")) == files
+
+
+def test_environments_and_meshes_are_inputs_too(refused: Refused, tmp_path: Path) -> None:
+    from brdf.render import Image
+
+    Image(np.ones((4, 8, 3), np.float32)).save(tmp_path / "sky.exr")
+    content = (tmp_path / "sky.exr").read_bytes()
+    line = refused("render", "Lambertian", *DRAFT, "--env", "sky.exr", "-o", "sky.exr")
+    assert "sky.exr: is the input itself" in line
+    assert (tmp_path / "sky.exr").read_bytes() == content
+
+
+def test_two_results_have_two_places(refused: Refused, tmp_path: Path) -> None:
+    line = refused("fit", "GGX", "--model", "Ward", "-o", "same.png", "--report", "./same.png")
+    assert "same.png: is the place of another result, too" in line
+    assert os.listdir(tmp_path) == []
+
+
+def test_in_python_too_a_conversion_does_not_replace_its_source(tmp_path: Path) -> None:
+    io.write(models.Lambertian(), tmp_path / "x.dat")
+    with pytest.raises(FileError, match="is the input itself"):
+        brdf.convert(tmp_path / "x.dat", tmp_path / "x.dat")
+    m = brdf.load(tmp_path / "x.dat")
+    io.write(m, tmp_path / "x.dat")  # who reads and writes himself is asked nothing
 
 
 # ---- scenes ------------------------------------------------------------------------------------------------------

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import inputs
 from ..color import srgb_decode
 from ..errors import BrdfError, CorruptFileError, FileError, ParameterError, UnknownFormatError
 from ..io.native import messages_hidden
@@ -52,6 +53,7 @@ def read_photograph(path: str | os.PathLike[str]) -> Photograph:
     Raises FileError, CorruptFileError, UnknownFormatError.
     """
     path = Path(path)
+    inputs.note(path)
     if not path.is_file():
         raise FileError(path, "no such file; check the path.")
     if path.stat().st_size == 0:

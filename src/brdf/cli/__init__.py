@@ -25,9 +25,11 @@ def main() -> None:
 def run(arguments: Sequence[str]) -> int:
     """Carry out one command line; returns the exit code. A mistake is one line on standard error, never a traceback."""
     from ..errors import BrdfError
+    from ..inputs import kept
 
     try:
-        return _dispatch(arguments)
+        with kept():
+            return _dispatch(arguments)
     except BrdfError as error:
         return _fail(str(error), USER_MISTAKE)
     except KeyboardInterrupt:

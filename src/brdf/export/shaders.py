@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 from pathlib import Path
 
@@ -18,7 +19,7 @@ def write_shader(m: Reflectance, place: Path, language: str, function: str | Non
     files = [place, Path(f"{place}.json"), *([Path(f"{place}.bin")] if made.texels else [])]
     described = json.dumps(made.description, indent=2, ensure_ascii=False) + "\n"
     contents = [in_ascii(header(m, made.function, language) + made.text), described.encode(), made.texels]
-    for file, content in reversed([*zip(files, contents, strict=False)]):  # the shader last: then all is there
-        with replacing(file) as temporary:
-            temporary.write_bytes(content)
+    with contextlib.ExitStack() as places:  # all of them or none; closed from behind, the shader last
+        for file, content in zip(files, contents, strict=False):
+            places.enter_context(replacing(file)).write_bytes(content)
     return made.function, tuple(files)

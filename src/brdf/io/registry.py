@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
+from .. import inputs
 from ..errors import CorruptFileError, FileError, UnknownFormatError, UnknownNameError
 from ..reflectance import Reflectance
 
@@ -79,6 +80,7 @@ def read(path: str | os.PathLike[str], member: str | None = None) -> Reflectance
     CorruptFileError (broken content), UnknownNameError for a member that is not there.
     """
     path = Path(path)
+    inputs.note(path)
     format_ = format_of(path)
     try:
         if format_.members is not None:

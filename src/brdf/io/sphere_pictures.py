@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import inputs
 from ..color import srgb_decode, srgb_encode
 from ..container import replacing
 from ..errors import CorruptFileError
@@ -33,6 +34,7 @@ def write(path: Path, pixels: NDArray[Any], note: str | None = None) -> None:
 
 def read(path: Path) -> tuple[NDArray[np.float32], str | None]:
     """(H, W, 3) linear pixels, and the note. Raises CorruptFileError, OSError."""
+    inputs.note(path)
     if path.suffix.lower() not in _READERS:
         raise CorruptFileError(path, f"pictures are {' or '.join(_READERS)}; convert it first.")
     try:

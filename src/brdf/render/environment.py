@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .. import inputs
 from ..errors import CorruptFileError, FileError, SceneError, UnknownNameError
 from . import radiance_file
 from .compiled import in_parallel
@@ -155,6 +156,7 @@ def load(environment: str | os.PathLike[str] | float | Environment, rotation: fl
         folder = Path(__file__).parent / "data"
         return Environment(radiance_file.read(folder / f"{environment}.hdr"), 1.0, rotation, str(environment))
     path = Path(environment)
+    inputs.note(path)
     if not path.exists():
         if isinstance(environment, str) and not path.suffix and path.parent == Path():
             raise UnknownNameError("environment", environment, BUILT_IN)

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .. import inputs
 from ..errors import CorruptFileError, FileError, SceneError, UnknownNameError
 from . import teapot
 
@@ -76,6 +77,7 @@ def load(mesh: str | os.PathLike[str] | Mesh) -> Mesh:
 def _read(path: Path) -> Mesh:
     import trimesh
 
+    inputs.note(path)
     if path.is_dir():
         raise FileError(path, "is a folder; give a mesh file.")
     try:

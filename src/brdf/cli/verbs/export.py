@@ -53,8 +53,8 @@ def command(
     options = given(budget=budget, anisotropic=anisotropic)
     start = scene.given(mesh, light, env, exposure, tone, no_shadows)
     format_of(out)
-    output.require_writable(out)
     shown = arguments.load_all(materials) if len(materials) > 1 else [arguments.load(materials[0])]
+    output.require_writable(out)
     if representation or options:
         with output.working("baking"):
             shown = [bake(m, representation, **options) for m in shown]

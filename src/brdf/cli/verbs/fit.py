@@ -111,9 +111,7 @@ def _fit_one(
     with output.working(f"reading {Path(spec).name}") as say:
         data = read_data(spec, grazing)
         path = out or arguments.named_file(f"{data.samples.name}-{model}", ".safetensors")
-        output.require_writable(path)
-        if report is not None:
-            output.require_writable(report)
+        output.require_writable(*filter(None, (path, report)))
         result: FitResult = fit(data, model, say=say, **options)
         result.save(path)
         if report is not None:
