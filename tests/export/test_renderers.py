@@ -162,6 +162,12 @@ def test_pbrt_gets_a_spectral_measurement(tmp_path, red):
     assert done.stands_for.wavelengths is not None
 
 
+def test_pbrt_escapes_what_ends_its_strings(tmp_path, red):
+    path = tmp_path / 'a "q\\.pbrt'
+    brdf.export(red, path)
+    assert path.read_text().endswith(r'"string filename" "a \"q\\.pbrt.bsdf"' + "\n")
+
+
 @pytest.mark.parametrize("extension", [".xml", ".pbrt"])
 def test_a_measurement_of_the_same_name_is_left_alone(tmp_path, data, extension):
     source = tmp_path / "m.bsdf"

@@ -5,6 +5,7 @@ pbrt reads RGL's spectral files alone, so colours become the smoothest spectra o
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -51,11 +52,11 @@ def write(m: Reflectance, path: Path) -> Written:
     beside = path.with_name(f"{path.name}.bsdf")  # never the measurement that it may have come from
     measured = spectral(m if isinstance(m, Adaptive) else bake_adaptive(m))
     io.write(measured, beside, "RGL")
-    name = identifier(m)
+    name, quoted = identifier(m), re.sub(r'(["\\])', r"\\\1", beside.name)
     with replacing(path) as temporary:
         temporary.write_text(
             f'# {m.name or type(m).__name__}; use it by: NamedMaterial "{name}"\n'
-            f'MakeNamedMaterial "{name}" "string type" "measured" "string filename" "{beside.name}"\n',
+            f'MakeNamedMaterial "{name}" "string type" "measured" "string filename" "{quoted}"\n',
             "utf-8",
         )
     return Written((path, beside), measured.named(m.name, f"spectral measurement {beside.name}"))
