@@ -121,6 +121,24 @@ def test_a_mirror_has_no_values(name, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.parametrize(
+    ("name", "spec", "said"),
+    [
+        ("UTIA", "GGX:alpha=.001,F0=1", "reaches .* and a UTIA file holds values below 1e\\+06 alone"),
+        ("Zemax text", "Lambertian:albedo=0", "is black, which Zemax text takes for no measurement"),
+        *((name, "1e200*Lambertian", "holds values below 1e\\+30") for name in ("Zemax text", "MIT CSAIL")),
+        *((name, "1e200*Lambertian", "holds values below 1e\\+30") for name in ("ALTA text", "ASTM E1392 text")),
+    ],
+)
+def test_what_no_reader_would_take_is_not_written(name, spec, said, tmp_path):
+    file = tmp_path / "kept"
+    file.write_text("the work of last week")
+    with pytest.raises(ReflectanceError, match=said):
+        io.write(brdf.load(spec), file, name)
+    assert file.read_text() == "the work of last week"
+    assert list(tmp_path.iterdir()) == [file]
+
+
 def test_a_format_that_is_not_written(tmp_path):
     with pytest.raises(UnknownNameError, match="unknown format that is written 'zemax': did you mean 'zemax-text'"):
         io.write(PLASTIC, tmp_path / "m.bsdf", "zemax")

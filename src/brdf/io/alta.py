@@ -20,6 +20,7 @@ from ..container import replacing
 from ..errors import CorruptFileError
 from ..geometry.directions import from_half_difference, from_spherical
 from ..reflectance import Reflectance
+from ..representations.baking.bake import require_storable
 from ..representations.scattered import Scattered
 from .angles import goniometer_pairs
 from .registry import Format
@@ -78,7 +79,10 @@ def recognises(head: bytes, size: int) -> bool:
 def read(path: Path) -> Reflectance:
     """The file as a `Scattered`, read as isotropic. Raises CorruptFileError."""
     wi, wo, values = read_samples(path)
-    made = Scattered.from_samples(wi, wo, values)
+    try:
+        made = Scattered.from_samples(wi, wo, values)
+    except ValueError as error:
+        raise CorruptFileError(path, f"{error}.") from None
     return made.named(path.stem, f"ALTA file {path.name}, {len(values)} measurements")
 
 
@@ -135,7 +139,9 @@ def _rows(path: Path, inputs: int, outputs: int) -> Array:
 def write(reflectance: Reflectance, path: Path) -> None:
     """RGB at the pairs of `goniometer_pairs`. Raises ReflectanceError for what is anisotropic, transmits or mirrors."""
     angles, wi, wo = goniometer_pairs(reflectance)
-    columns: Any = np.concatenate([angles, reflectance(wi, wo)], axis=1)
+    values = reflectance(wi, wo)
+    require_storable(reflectance, values, "ALTA text")
+    columns: Any = np.concatenate([angles, values], axis=1)
     header = "#DIM 4 3\n#PARAM_IN SPHERICAL_TL_PL_TV_PV\n#PARAM_OUT RGB_COLOR\n#VS 0\n"
     with replacing(path) as temporary, temporary.open("w", encoding="ascii") as file:
         file.write(header)

@@ -21,6 +21,7 @@ from ..container import replacing
 from ..errors import CorruptFileError
 from ..reflectance import Reflectance
 from ..representations.adaptive import Adaptive
+from ..representations.baking.bake import require_storable
 from ..representations.scattered import Scattered
 from .angles import goniometer_pairs
 from .registry import Format
@@ -119,6 +120,7 @@ def write(reflectance: Reflectance, path: Path) -> None:
     if isinstance(reflectance, (Adaptive, Scattered)) and reflectance.wavelengths is not None:
         names = [f"{nm:g}nm" for nm in reflectance.wavelengths]
         values = reflectance.spectrum(wi, wo)
+    require_storable(reflectance, values, "ASTM text")
     with replacing(path) as temporary, temporary.open("w", encoding="ascii") as file:
         file.write(f"TYPE BRDF\nNUM_POINTS {len(angles)}\nVARS {','.join([*ANGLES, *names])}\n")
         np.savetxt(file, np.concatenate([angles, values], axis=1), fmt="%.9g", delimiter=",")

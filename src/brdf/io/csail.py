@@ -19,7 +19,7 @@ from ..container import replacing
 from ..errors import BrdfError, CorruptFileError
 from ..geometry.warps import Circle, listed
 from ..reflectance import Reflectance
-from ..representations.baking.bake import require_values
+from ..representations.baking.bake import require_storable, require_values
 from ..representations.tables.anisotropic import AnisotropicNormalBasis
 from ..representations.tables.encoding import Encoding
 from ..representations.tables.layout import Layout
@@ -124,7 +124,9 @@ def write(reflectance: Reflectance, path: Path) -> None:
     for i, theta in enumerate(theta_i_nodes):
         nodes = np.meshgrid(turns, [theta], theta_o_nodes, around_nodes, indexing="ij")
         wi, wo = AnisotropicNormalBasis().directions(*nodes)
-        planes[:, i] = np.asarray(reflectance(wi, wo))[:, 0].transpose(3, 1, 2, 0)
+        with np.errstate(over="ignore"):  # what does not fit becomes infinite, and is refused below
+            planes[:, i] = np.asarray(reflectance(wi, wo))[:, 0].transpose(3, 1, 2, 0)
+    require_storable(reflectance, planes, "an MIT CSAIL file")
     with replacing(path) as temporary, temporary.open("wb") as file:
         file.write(header.tobytes())
         file.write(planes.tobytes())

@@ -19,7 +19,7 @@ from ..errors import CorruptFileError
 from ..geometry.directions import from_spherical
 from ..geometry.warps import Circle, TwoSided, listed
 from ..reflectance import Reflectance
-from ..representations.baking.bake import require_values
+from ..representations.baking.bake import require_storable, require_values
 from ..representations.tables.anisotropic import AnisotropicNormalBasis
 from ..representations.tables.encoding import Encoding
 from ..representations.tables.layout import Layout
@@ -73,11 +73,15 @@ def read(path: Path) -> Reflectance:
 
 
 def write(reflectance: Reflectance, path: Path) -> None:
-    """The reflectance at UTIA's directions. Raises ReflectanceError for what transmits or mirrors, FileError."""
+    """The reflectance at UTIA's directions.
+
+    Raises ReflectanceError for what transmits, mirrors or reaches values that `read` refuses, FileError.
+    """
     require_values(reflectance)
     nodes = (np.arange(count) * step for count, step in zip((ELEVATIONS, AZIMUTHS), STEP, strict=True))
     w = from_spherical(*np.meshgrid(*nodes, indexing="ij")).reshape(-1, 3)
     planes = np.moveaxis(np.asarray(reflectance(w[:, None], w[None])), -1, 0)
+    require_storable(reflectance, planes, "a UTIA file", _LARGEST)
     with replacing(path) as temporary, temporary.open("wb") as file:
         file.write(planes.astype(_VALUE).tobytes())
 

@@ -21,10 +21,10 @@ from numpy.typing import NDArray
 
 from ..color import XYZ_TO_RGB, rgb_to_xyz
 from ..container import replacing
-from ..errors import BrdfError, CorruptFileError
+from ..errors import BrdfError, CorruptFileError, ReflectanceError
 from ..geometry.warps import Circle, listed
 from ..reflectance import Reflectance
-from ..representations.baking.bake import require_values
+from ..representations.baking.bake import require_storable, require_values
 from ..representations.tables.encoding import Encoding
 from ..representations.tables.layout import Layout
 from ..representations.tables.specular import AnisotropicSpecularBasis, SpecularBasis
@@ -44,6 +44,8 @@ SYMMETRIES = {"planesymmetrical": 180.0, "asymmetrical": 360.0, "asymmetrical4d"
 CHANNELS = {"monochrome": ("monochrome",), "xyz": ("tristimulusx", "tristimulusy", "tristimulusz")}
 
 MOST_ANGLES = 2000
+LARGEST = 1e30
+"""1/sr; larger values are refused."""
 _KEYS = re.compile(rb"^(Source|Symmetry|SpectralContent|ScatterType|SampleRotation)[ \t]", re.MULTILINE)
 
 
@@ -196,7 +198,7 @@ def _values(
                 raise CorruptFileError(path, f"line {number}: TIS comes too early or too often; fetch it again.")
         else:
             found = numbers(path, number, [key, *rest])
-            if block < 0 or row >= shape[3] or len(found) != shape[4] or max(map(abs, found)) > 1e30:
+            if block < 0 or row >= shape[3] or len(found) != shape[4] or max(map(abs, found)) > LARGEST:
                 wanted = f"{shape[3]} lines of {shape[4]} values"
                 raise CorruptFileError(path, f"line {number} is not one of the {wanted} after a line TIS.")
             blocks[channel, block, row] = found
@@ -226,7 +228,7 @@ def write(reflectance: Reflectance, path: Path) -> None:
     """Values about the specular direction: at a table's own angles where it came from such a file, else every 5 degrees
     of incidence and more densely near the specular direction. Colours are written as XYZ.
 
-    Raises ReflectanceError for what transmits or mirrors, FileError.
+    Raises ReflectanceError for what transmits, mirrors or is black, FileError.
     """
     require_values(reflectance)
     own = _own_layout(reflectance)
@@ -237,6 +239,10 @@ def write(reflectance: Reflectance, path: Path) -> None:
     wo = basis.directions(*nodes)[1]
     lifted = reflectance(*basis.directions(*basis.above_horizon(*nodes, margin=margin)))
     values = np.where(wo[..., 2:] > -_ROUNDING, lifted, 0.0).swapaxes(2, 3)
+    require_storable(reflectance, values, "Zemax text", LARGEST)
+    if not (values > 0).any():
+        name = reflectance.name or type(reflectance).__name__
+        raise ReflectanceError(f"{name} is black, which Zemax text takes for no measurement; write .bin or .csail")
     is_grey = bool(np.allclose(values, values[..., :1], rtol=1e-6, atol=0))
     channels = values[..., :1] if is_grey else np.asarray(rgb_to_xyz(values))
     spectral = "Monochrome" if is_grey else "XYZ"

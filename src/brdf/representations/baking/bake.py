@@ -43,6 +43,17 @@ def require_values(m: Reflectance) -> None:
         )
 
 
+def require_storable(m: Reflectance, values: Array, kind: str, below: float = 1e30) -> None:
+    """Raises ReflectanceError for values that readers of this kind of file take for broken ones."""
+    largest = float(np.abs(values).max())
+    if not largest < below:
+        found = f"reaches {largest:.3g} 1/sr" if np.isfinite(largest) else "is NaN or infinite in some directions"
+        raise ReflectanceError(
+            f"{m.name or type(m).__name__} {found}, and {kind} holds values below {below:g} alone; give it a width or "
+            "write another format"
+        )
+
+
 def validity(m: Reflectance, wi: Array, wo: Array) -> Validity:
     """Where `m` is well known: clear of the horizon and, in a table with holes, measured."""
     above = np.asarray((wi[..., 2] > LEAST_COSINE) & (wo[..., 2] > LEAST_COSINE))
