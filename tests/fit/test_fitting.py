@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 import brdf
+from brdf import io
 from brdf.errors import BrdfError, ParameterError, ReflectanceError, UnknownNameError
 from brdf.fit import LOSSES, Samples, data_of, samples_of
 from brdf.fit.losses import LOSSES as SCALES
@@ -263,6 +264,16 @@ def test_rows_of_a_goniometer_are_fitted_as_measured(data: Path) -> None:
     assert r.data == "garnet_red"
     red, green, _ = (e.value for e in r.parameters[:3])
     assert red > 2 * green
+
+
+@pytest.mark.parametrize("extension", [".alta", ".astm"])
+def test_so_are_rows_of_astm_and_alta_text(extension: str, tmp_path: Path) -> None:
+    path, model = tmp_path / f"m{extension}", Ward(ks=0.3, alpha=0.25)
+    io.write(model, path)
+    samples, m = data_of(path)
+    assert m is not None
+    assert len(samples) < 4000
+    np.testing.assert_allclose(samples.values, model(samples.wi, samples.wo), rtol=1e-4, atol=1e-6)
 
 
 def test_the_result_is_saved_as_a_material(tmp_path: Path) -> None:

@@ -6,7 +6,10 @@ import os
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from ..io import gonio
+import numpy as np
+
+from ..geometry.directions import from_spherical
+from ..io import alta, astm, gonio
 from ..io.registry import format_of
 from ..loading import is_file, load
 from ..reflectance import Reflectance
@@ -24,14 +27,28 @@ class Data(NamedTuple):
 def data_of(given: Any, grazing: float = GRAZING) -> Data:
     """The data of a reflectance, `Samples`, or the description of a material as `brdf.load` takes it.
 
-    Of a goniometer's file the rows are fitted as they were measured, not the interpolation between them. Raises as
-    `brdf.load` and `samples_of`.
+    Of a file of scattered measurements the rows are fitted as they were measured, not the interpolation between them.
+    Raises as `brdf.load` and `samples_of`.
     """
     if not isinstance(given, (str, os.PathLike)):
         return Data(samples_of(given, grazing), given if isinstance(given, Reflectance) else None)
     m = load(given)
     text = os.fspath(given)
-    if (is_file(text) or isinstance(given, os.PathLike)) and format_of(text) is gonio.FORMAT:
-        wavelengths, angles, spectra = gonio.read_rows(Path(given))
-        return Data(from_rows(angles, spectra, wavelengths, grazing, m.name, m.source), m)
-    return Data(samples_of(m, grazing), m)
+    rows = _rows(Path(given), grazing, m) if is_file(text) or isinstance(given, os.PathLike) else None
+    return Data(samples_of(m, grazing) if rows is None else rows, m)
+
+
+def _rows(path: Path, grazing: float, m: Reflectance) -> Samples | None:
+    """What a file of scattered measurements holds, row by row; None of any other file."""
+    kind = format_of(path)
+    if kind is alta.FORMAT:
+        wi, wo, rgb = alta.read_samples(path)
+    elif kind in (astm.FORMAT, gonio.FORMAT):
+        wavelengths, angles, values = astm.read_rows(path) if kind is astm.FORMAT else gonio.read_rows(path)
+        if wavelengths is not None:
+            return from_rows(angles, values, wavelengths, grazing, m.name, m.source)
+        wi, wo = (from_spherical(angles[:, k], angles[:, k + 1]) for k in (0, 2))
+        rgb = values
+    else:
+        return None
+    return Samples.of(wi, wo, np.maximum(rgb, 0), 1.0, grazing, m.name, m.source)
