@@ -112,3 +112,10 @@ def test_photographs_of_a_ball_among_many(brdf: Command, data: Path, tmp_path: P
     outcome = brdf("fit", ball, DATA, "--model", "Ward", "--budget", "1", "-o", "many", "--jobs", "2", "--json")
     assert outcome.code == 0, outcome
     assert [one["data"] for one in json.loads(outcome.out)["fits"]] == ["diligent_ball", DATA]
+
+
+def test_a_report_of_no_known_format_is_refused_before_the_work(brdf: Command, tmp_path: Path) -> None:
+    outcome = brdf("fit", TRUTH, "--model", "Ward", "--report", "r.docx")
+    assert outcome.code == 2
+    assert "r.docx: figures are written as" in outcome.err
+    assert not list(tmp_path.iterdir())

@@ -73,14 +73,9 @@ class _ProbedError(Exception):
     """Ends a trial write."""
 
 
-def require_writable(*paths: str | os.PathLike[str]) -> None:
-    """Fail before the work rather than after it. Raises FileError for a path that cannot be written, or comes twice."""
+def require_writable(path: str | os.PathLike[str]) -> None:
+    """Fail before the work rather than after it. Raises FileError for a path that cannot be written."""
     from ..container import replacing
-    from ..errors import FileError
 
-    places = [os.path.realpath(path) for path in paths]
-    for i, path in enumerate(paths):
-        if places[i] in places[:i]:
-            raise FileError(path, "is the place of another result, too; choose a place for each.")
-        with contextlib.suppress(_ProbedError), replacing(path):
-            raise _ProbedError
+    with contextlib.suppress(_ProbedError), replacing(path):
+        raise _ProbedError

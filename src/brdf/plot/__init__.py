@@ -14,12 +14,12 @@ from .fitted import fitted
 from .fresnel_curves import fresnel
 from .maps import slices, solid
 from .overview import overview
-from .page import save
+from .page import figure_format, save
 from .pareto import candidates
 from .pictures import spheres, white_out
 from .polar import cartesian, lobes
 
 __all__ = [
-    "albedo", "candidates", "cartesian", "compared", "comparison", "coverage", "fitted", "fresnel", "lobes", "overview",
-    "profile", "save", "slices", "solid", "spheres", "white_out",
+    "albedo", "candidates", "cartesian", "compared", "comparison", "coverage", "figure_format", "fitted", "fresnel",
+    "lobes", "overview", "profile", "save", "slices", "solid", "spheres", "white_out",
 ]  # fmt: skip

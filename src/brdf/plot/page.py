@@ -86,16 +86,23 @@ def save(figure: Figure, path: str | os.PathLike[str]) -> None:
 
     Raises UnknownFormatError.
     """
-    target = Path(path)
-    known = sorted([*figure.canvas.get_supported_filetypes(), "html"])
-    kind = target.suffix.lower()[1:]
-    if kind not in known:
-        raise UnknownFormatError(target, f"figures are written as {', '.join('.' + k for k in known)}; choose one.")
+    target, kind = Path(path), figure_format(path)
     with replacing(target) as temporary:
         if kind == "html":
             temporary.write_text(_page(figure), "utf-8")
         else:
             _draw(figure, temporary, kind)
+
+
+def figure_format(path: str | os.PathLike[str]) -> str:
+    """The format of a figure's file, by its extension. Raises UnknownFormatError."""
+    from matplotlib.backend_bases import FigureCanvasBase
+
+    known = sorted([*FigureCanvasBase.get_supported_filetypes(), "html"])
+    kind = Path(path).suffix.lower()[1:]
+    if kind not in known:
+        raise UnknownFormatError(path, f"figures are written as {', '.join('.' + k for k in known)}; choose one.")
+    return kind
 
 
 def _draw(figure: Figure, target: Any, kind: str) -> None:

@@ -108,10 +108,15 @@ def _fit_one(
 
     if out is not None and out.suffix.lower() != ".safetensors":
         raise UnknownFormatError(out, "fits are written as .safetensors; `brdf convert` makes other formats of those.")
+    if report is not None:
+        from ...plot import figure_format
+
+        figure_format(report)
     with output.working(f"reading {Path(spec).name}") as say:
         data = read_data(spec, grazing)
         path = out or arguments.named_file(f"{data.samples.name}-{model}", ".safetensors")
-        output.require_writable(*filter(None, (path, report)))
+        for place in filter(None, (path, report)):
+            output.require_writable(place)
         result: FitResult = fit(data, model, say=say, **options)
         result.save(path)
         if report is not None:
