@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from .. import inputs
 from ..errors import BrdfError
 from . import output
 
@@ -30,6 +31,9 @@ def fit_folder(
     from ..fit.table import require_kind, write_table
     from ..reproduce.fits import write_page
 
+    for spec in data:  # workers read them, and what was fitted before is not read again
+        if Path(spec).exists():
+            inputs.note(spec)
     if table is not None:
         require_kind(table)
         output.require_writable(table)
