@@ -109,6 +109,33 @@ def test_surroundings_give_the_picture_that_python_draws_but_for_noise(modules: 
     assert np.abs(turned - expected).mean() > 6
 
 
+PASSES = """async () => {
+    const { Picture } = await import("./renderer.js");
+    const { renderer, gl } = viewer;
+    const [shot] = viewer.shots();
+    const brightness = (numbers) => {
+        const picture = new Picture();
+        picture.restart(shot.width, shot.height);
+        for (const number of numbers) {
+            renderer.draw(shot, { number, place: [0.5, 0.5], samples: 4, total: 256 }, 0, shot.height);
+            renderer.add(picture);
+        }
+        picture.mean.use(shot.width, shot.height);
+        const pixels = new Float32Array(4 * shot.width * shot.height);
+        gl.readPixels(0, 0, shot.width, shot.height, gl.RGBA, gl.FLOAT, pixels);
+        picture.dispose();
+        return pixels.reduce((sum, value, i) => sum + (i % 4 === 1 ? value : 0), 0);
+    };
+    const all = brightness(Array(64).keys());
+    return [0, 1, 2, 3].map((number) => brightness([number]) / all);
+}"""
+
+
+def test_the_first_pass_under_surroundings_is_noisy_but_not_dark(modules: Page) -> None:
+    mounted(modules, payload([GGX(alpha=0.3)], View("sphere", env="studio")), 96, 96)
+    assert modules.evaluate(PASSES) == pytest.approx([1, 1, 1, 1], abs=0.05)
+
+
 @pytest.mark.parametrize("mesh", ["teapot", "sphere"])
 def test_a_shape_is_framed_as_python_frames_it(modules: Page, mesh: str) -> None:
     data = base64.b64encode(payload([GOLD], View(mesh))).decode()

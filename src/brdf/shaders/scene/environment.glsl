@@ -4,6 +4,7 @@
 uniform int environment_samples;           // a pass and kind; 0: there is no environment
 uniform int environment_pass;              // 0, 1, 2, ...: passes draw other directions
 uniform int environment_total;             // of a pixel's samples of each kind; 0: not known yet
+uniform bool environment_dealt;            // each pixel begins with another of its passes, for means of few of them
 uniform int environment_seed;
 uniform sampler2D environment_map;         // radiance, and density of the brightness over solid angle [1/sr]
 uniform sampler2D environment_directions;  // places (u, v) in the map, drawn by brightness: by number, row and column
@@ -75,7 +76,10 @@ vec3 from_environment(Point point) {
     vec3 radiance = vec3(0.0);
     uvec2 pixel = uvec2(gl_FragCoord.x, picture_size.y - gl_FragCoord.y);
     uint seed = uint(environment_seed), total = uint(environment_total > 0 ? environment_total : MANY);
-    uint first = along_curve(pixel, seed) * total + uint(environment_pass * environment_samples);
+    uint samples = uint(max(environment_samples, 1)), place = along_curve(pixel, seed), pass = uint(environment_pass);
+    // All pixels' passes of one number look at the same few strata; those of several numbers side by side, at all.
+    if (environment_dealt) pass = (pass + hashed(place)) % (total / samples);
+    uint first = place * total + pass * samples;
     for (int s = 0; s < environment_samples; s++) {
         ivec2 chosen = ivec2(sequence(first + uint(s), 2u * seed).yx * vec2(textureSize(environment_directions, 0)));
         vec3 world = environment_direction(texelFetch(environment_directions, chosen, 0).xy);
@@ -89,5 +93,5 @@ vec3 from_environment(Point point) {
             radiance += weighed(point, wi, world, light, light.a + lobe_density(wi, point.wo));
         }
     }
-    return radiance / float(max(environment_samples, 1));
+    return radiance / float(samples);
 }

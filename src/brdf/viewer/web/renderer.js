@@ -152,6 +152,7 @@ export class Renderer {
             environment_samples: environment ? pass.samples : 0,
             environment_pass: pass.number,
             environment_total: pass.total,
+            environment_dealt: true,
             lobe_alpha: material.lobe.alpha,
             lobe_share: material.lobe.share,
             mesh_has_uv: mesh.hasUv,
