@@ -162,6 +162,34 @@ def test_sliders_come_from_the_parameters_and_are_reset(pair: Opened) -> None:
     np.testing.assert_array_equal(pair.picture(), before)
 
 
+@pytest.mark.parametrize("typed", ["abc", "0.3 foo 5", "", " ", "--1", "Infinity"])
+def test_what_is_no_number_is_refused(pair: Opened, typed: str) -> None:
+    pick(pair, "Comparison", "A")
+    alpha = pair.page.get_by_role("textbox", name="alpha, value")
+    before = pair.state
+    alpha.fill(typed)
+    alpha.press("Enter")
+    assert alpha.input_value() == "0.3"
+    assert pair.state == before
+
+
+def test_a_number_out_of_bounds_becomes_the_bound_everywhere(pair: Opened) -> None:
+    pick(pair, "Comparison", "A")
+    for name, typed, shown in (("alpha", "99", "1"), ("Exposure", "-1e3", "-10 EV")):
+        field = pair.page.get_by_role("textbox", name=f"{name}, value")
+        field.fill(typed)
+        field.press("Enter")
+        assert field.input_value() == shown
+    assert (pair.state["parameters"][0], pair.state["exposure"]) == ({"alpha": 1}, -10)
+    pair.page.get_by_label("Surroundings").select_option("Constant 1")
+    turned = pair.page.get_by_role("textbox", name="Turned, value")
+    for typed in ("12,5", "12.5°", " 12.5 ° "):
+        turned.fill(typed)
+        turned.press("Enter")
+        assert turned.input_value() == "12.5°"
+        assert pair.state["turn"] == 12.5
+
+
 def test_the_address_carries_the_view(pair: Opened, browser: Browser, file: Path) -> None:
     pair.set(theta=80, phi=-30, mesh="plane", exposure=0.5, tone="clip", compare="difference", gain=4, shadows=False)
     pair.set(lights=[{"kind": "point", "position": [1, 2, 3], "power": [5, 4, 3]}], parameters=[{"alpha": 0.1}, {}])

@@ -23,7 +23,7 @@ export function typeable(value) {
  * @returns {Control}
  */
 export function slider({ label, doc, scale, read, write }) {
-    const { low, high, log } = scale;
+    const { low, high, log, unit = "" } = scale;
     const position = (/** @type {number} */ v) =>
         SLIDER_STEPS * (log ? Math.log(Math.max(v, low) / low) / Math.log(high / low) : (v - low) / (high - low));
     const value = (/** @type {number} */ p) =>
@@ -35,18 +35,20 @@ export function slider({ label, doc, scale, read, write }) {
     const typed = element("input", {
         type: "text", inputmode: "decimal", class: "number", "aria-label": `${label}, value`,
         onchange: () => {
-            const number = Number(typed.value.replace(",", ".").replace(/[^\d.eE+-]/g, ""));
-            if (typed.value.trim() && Number.isFinite(number)) write(number);
-            refresh();
+            const number = Number(typed.value.replace(unit.trim(), "").replace(",", ".").trim() || NaN);
+            if (Number.isFinite(number)) write(number);
+            show();
         },
+        onblur: () => show(),
         onfocus: () => typed.select(),
     });
+    const show = () => void (typed.value = typeable(read()) + unit);
     const refresh = () => {
         const now = read();
         range.value = String(Math.round(position(now)));
         range.style.setProperty("--filled", `${Math.min(100, Math.max(0, position(now) / SLIDER_STEPS * 100))}%`);
-        range.setAttribute("aria-valuetext", typeable(now) + (scale.unit ?? ""));
-        if (document.activeElement !== typed) typed.value = typeable(now) + (scale.unit ?? "");
+        range.setAttribute("aria-valuetext", typeable(now) + unit);
+        if (document.activeElement !== typed) show();  // not over what is being typed
     };
     return { element: element("div", { class: "row slider", title: doc }, caption(label), range, typed), refresh };
 }

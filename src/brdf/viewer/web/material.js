@@ -16,6 +16,16 @@ const PLACE = "// MATERIAL\n";
 /** Samples an environment well enough where a material says nothing of itself. */
 const LOBE = { alpha: 0.3, share: 0.5 };
 
+/**
+ * Numbers within a parameter's bounds, as states and materials keep them.
+ * @param {Parameter} parameter
+ * @param {number[]} given
+ */
+export function within({ low, high, size }, given) {
+    const values = given.map((x) => Math.min(Math.max(x, low ?? -Infinity), high ?? Infinity));
+    return size === 1 ? values[0] : values;
+}
+
 export class Material {
     /**
      * @param {WebGL2RenderingContext} gl
@@ -59,8 +69,7 @@ export class Material {
         if (!parameter || given.length !== parameter.size || !given.every(Number.isFinite)) {
             throw new Error(`${this.name} has no parameter ${name} that could be ${value}.`);
         }
-        const clamped = given.map((x) => Math.min(Math.max(x, parameter.low ?? -Infinity), parameter.high ?? Infinity));
-        this.values[name] = parameter.size === 1 ? clamped[0] : clamped;
+        this.values[name] = within(parameter, given);
     }
 
     reset() {

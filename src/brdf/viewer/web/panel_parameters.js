@@ -2,6 +2,7 @@
 
 import { colour, slider } from "./controls.js";
 import { element } from "./element.js";
+import { within } from "./material.js";
 
 /**
  * @typedef {import("./viewer.js").Viewer} Viewer
@@ -19,17 +20,16 @@ const CHANNEL_NAMES = ["R", "G", "B"];
  * @returns {Control[]}
  */
 export function parameterControls(viewer, slot) {
-    const write = (/** @type {string} */ name, /** @type {number[]} */ value) => {
-        const values = { ...viewer.state.parameters[slot], [name]: value.length > 1 ? value : value[0] };
-        viewer.set({ parameters: viewer.state.parameters.with(slot, values) });
-    };
     const declared = viewer.slots.at(slot).parameters.filter(({ doc }) => doc);  // not how a table is encoded
     return declared.map((parameter) => {
         const { name, size, unit } = parameter;
         const doc = unit && unit !== "1" ? `${parameter.doc} [${unit}]` : parameter.doc;
         const read = () => [viewer.slots.at(slot).values[name]].flat();
         const given = { label: name.replaceAll("_", " "), doc, scale: scaleOf(parameter) };
-        const change = (/** @type {number[]} */ value) => write(name, value);
+        const change = (/** @type {number[]} */ value) => {
+            const values = { ...viewer.state.parameters[slot], [name]: within(parameter, value) };
+            viewer.set({ parameters: viewer.state.parameters.with(slot, values) });
+        };
         if (size === 1) return slider({ ...given, read: () => read()[0], write: (value) => change([value]) });
         if (parameter.low === 0 && parameter.high === 1) return colour({ ...given, read, write: change });
         return channelSliders(given, read, change);
