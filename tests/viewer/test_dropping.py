@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import base64
+import gzip
+import json
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 from tests.viewer.pages import Opened, address, opened
@@ -83,3 +85,31 @@ def test_what_cannot_be_read_is_said_and_nothing_changes(
     assert message in dropped(viewer, name, content)
     assert viewer.page.locator(".message.wrong").is_visible()
     assert viewer.state == before
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        (lambda shader: shader["text"].replace(";", "; nonsense", 1), "does not compile"),
+        (lambda shader: shader["description"]["parameters"].append(None) or shader["text"], ""),
+    ],
+    ids=["shader", "parameter"],
+)
+def test_what_cannot_be_drawn_is_not_taken(viewer: Opened, tmp_path: Path, changed: Any, message: str) -> None:
+    GGX(alpha=0.4).save(tmp_path / "whole.safetensors")
+    data = (tmp_path / "whole.safetensors").read_bytes()
+    size = int.from_bytes(data[:8], "little")
+    header = json.loads(data[8 : 8 + size])
+    about = json.loads(header["__metadata__"]["brdf"])
+    shader = json.loads(gzip.decompress(base64.b64decode(about["shader"])))
+    shader["text"] = changed(shader)
+    about["shader"] = base64.b64encode(gzip.compress(json.dumps(shader).encode())).decode()
+    header["__metadata__"]["brdf"] = json.dumps(about)
+    text = json.dumps(header).encode()
+    viewer.finished()
+    before = viewer.state, viewer.page.evaluate("viewer.slots.sources.length")
+    said = dropped(viewer, "broken.safetensors", len(text).to_bytes(8, "little") + text + data[8 + size :])
+    assert said.startswith("broken.safetensors cannot be shown: ")
+    assert message in said
+    assert (viewer.state, viewer.page.evaluate("viewer.slots.sources.length")) == before
+    viewer.finished()

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import gzip
 import json
 from pathlib import Path
 from typing import Any
@@ -137,6 +139,13 @@ def test_broken_files_are_refused_in_a_sentence(tmp_path: Path) -> None:
     broken(tmp_path / "negative", {"a": {"dtype": "F32", "shape": [-1], "data_offsets": [0, -4]}})
     broken(tmp_path / "foreign", {"__metadata__": {"a": "b"}})
     broken(tmp_path / "newer", {"__metadata__": {"brdf": json.dumps({"schema": 99})}})
+    broken(tmp_path / "null header", b"null")
+    broken(tmp_path / "null tensor", {"a": None})
+    broken(tmp_path / "null metadata", {"__metadata__": None})
+    broken(tmp_path / "null description", {"__metadata__": {"brdf": "null"}})
+    shader = gzip.compress(json.dumps({"text": "", "description": {"textures": []}}).encode())
+    text = json.dumps(head | {"shader": base64.b64encode(shader).decode()})
+    broken(tmp_path / "no parameters", {"__metadata__": {"brdf": text}})
     broken(tmp_path / "no gzip", {"__metadata__": {"brdf": json.dumps(head | {"shader": "AAAA"})}})
     expected = {
         "empty": "has 0 bytes, too few for a safetensors file (8).",
@@ -147,6 +156,11 @@ def test_broken_files_are_refused_in_a_sentence(tmp_path: Path) -> None:
         "huge tensor": "its tensor 'a' claims bytes 0 to 2147483648 of 0; fetch the file again.",
         "negative": "its tensor 'a' claims bytes 0 to -4 of 0; fetch the file again.",
         "foreign": "is a safetensors file, but not one of brdf's: its header is missing.",
+        "null header": "null header is not a safetensors file: its header is not JSON.",
+        "null tensor": "null tensor: its tensor 'a' claims bytes NaN to NaN of 0; fetch the file again.",
+        "null metadata": "null metadata is a safetensors file, but not one of brdf's",
+        "null description": "null description is a safetensors file, but not one of brdf's",
+        "no parameters": "no parameters: the shader in it cannot be read (it has no list of parameters)",
         "newer": "was written by a newer brdf; make the page with that one.",
         "no gzip": "the shader in it cannot be read (",
         "old": "carries no shader: an earlier brdf wrote it, or it has no formula. Save it again, or bake it: ",

@@ -38,9 +38,10 @@ export class Drop {
         for (const file of files.slice(0, 2)) {
             try {
                 this.viewer.frame.notice(`Reading ${file.name} …`);
-                this.viewer.add(await materialOf(file, this.viewer.payload.library));
+                await this.viewer.add(await materialOf(file, this.viewer.payload.library));
             } catch (error) {
-                this.viewer.failed(error);
+                const { message } = /** @type {Error} */ (error);
+                this.viewer.failed(message.includes(file.name) ? error : `${file.name} cannot be shown: ${message}`);
             }
         }
     }

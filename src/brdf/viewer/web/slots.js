@@ -46,6 +46,17 @@ export class Slots {
         });
     }
 
+    /**
+     * Takes a material that is already made as A or B; gives the number of its source.
+     * @param {number} slot
+     * @param {Material} material
+     */
+    take(slot, material) {
+        this.materials[slot]?.dispose();
+        this.materials[slot] = material;
+        return this.sources.push(material.source) - 1;
+    }
+
     /** @param {number} slot */
     at(slot) {
         return /** @type {Material} */ (this.materials[slot]);

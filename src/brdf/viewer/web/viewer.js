@@ -9,6 +9,7 @@ import { ballOf, Handles, mirrored, turnedBy, turnedTo } from "./handles.js";
 import { frame } from "./frame.js";
 import { listen } from "./input.js";
 import { Framer, panes } from "./layout.js";
+import { Material } from "./material.js";
 import { Measure } from "./measure.js";
 import { decodedMesh } from "./mesh.js";
 import { decode } from "./payload.js";
@@ -352,9 +353,15 @@ export class Viewer {
         return [this.slots.at(0), ...(several ? [this.slots.at(1)] : [])];
     }
 
-    /** Shows another material as A, or as B where two are compared. @param {import("./material.js").Source} source */
-    add(source) {
-        const index = this.slots.sources.push(source) - 1;
+    /**
+     * Shows another material as A, or as B where two are compared, once it is known that it can be drawn: else throws.
+     * @param {import("./material.js").Source} source
+     */
+    async add(source) {
+        const material = new Material(this.gl, source);
+        const stage = this.renderer.stageOf(this.shots()[0].scene);
+        while (!material.program(stage).ready) await new Promise(requestAnimationFrame);
+        material.use(stage);
         const { materials, parameters, compare } = this.state;
         const slot = compare === "first" ? 0 : 1;
         this.set({ materials: materials.with(slot, index), parameters: parameters.with(slot, {}) });

@@ -34,12 +34,8 @@ export function isSafetensors(head) {
  */
 export async function parseSafetensors(buffer, name) {
     const { metadata, tensors } = opened(buffer, name);
-    let header;
-    try {
-        header = JSON.parse(metadata.brdf);
-    } catch {
-        throw new Error(`${name} is a safetensors file, but not one of brdf's: its header is missing.`);
-    }
+    const header = objectOf(metadata?.brdf);
+    if (!header) throw new Error(`${name} is a safetensors file, but not one of brdf's: its header is missing.`);
     if (header.schema > SCHEMA) throw new Error(`${name} was written by a newer brdf; make the page with that one.`);
     if (!header.shader) {
         throw new Error(
@@ -50,6 +46,9 @@ export async function parseSafetensors(buffer, name) {
     try {
         const packed = bytesOf(header.shader);
         const { text, description, nbytes, isotropic } = JSON.parse(textOf(await unzipped(packed, LARGEST_SHADER)));
+        for (const part of ["textures", "parameters"]) {
+            if (!Array.isArray(description?.[part])) throw new Error(`it has no list of ${part}`);
+        }
         const { textures, texels } = uploads(description.textures, tensors);
         const shader = { ...description, textures, name: description.name || stem(name) };
         return { shader, text: String(text), texels, nbytes, isotropic, kind: header.kind };
@@ -72,17 +71,14 @@ function opened(buffer, name) {
         const wrong = "it is truncated, or no safetensors file";
         throw new Error(`${name} claims a header of ${length} bytes in a file of ${size}: ${wrong}.`);
     }
-    let header;
-    try {
-        header = JSON.parse(textOf(new Uint8Array(buffer, 8, length)));
-    } catch {
-        throw new Error(`${name} is not a safetensors file: its header is not JSON.`);
-    }
+    const header = objectOf(textOf(new Uint8Array(buffer, 8, length)));
+    if (!header) throw new Error(`${name} is not a safetensors file: its header is not JSON.`);
     const start = 8 + length;
     const { __metadata__: metadata, ...entries } = header;
     /** @type {Map<string, Tensor>} */
     const tensors = new Map();
-    for (const [key, { dtype, data_offsets: place }] of Object.entries(entries)) {
+    for (const [key, entry] of Object.entries(entries)) {
+        const { dtype, data_offsets: place } = entry ?? {};
         const [from, to] = Array.isArray(place) ? place : [NaN, NaN];
         if (!(from >= 0 && to >= from && start + to <= size)) {
             const claim = `bytes ${from} to ${to} of ${size - start}`;
@@ -90,7 +86,20 @@ function opened(buffer, name) {
         }
         tensors.set(key, { dtype, bytes: new Uint8Array(buffer, start + from, to - from) });
     }
-    return { metadata: metadata ?? {}, tensors };
+    return { metadata, tensors };
+}
+
+/**
+ * The object that a JSON text is, or null.
+ * @param {string} text
+ */
+function objectOf(text) {
+    try {
+        const value = JSON.parse(text);
+        return typeof value === "object" ? value : null;
+    } catch {
+        return null;
+    }
 }
 
 /**
