@@ -207,6 +207,7 @@ def test_broken_files_are_refused_in_a_sentence(tmp_path: Path) -> None:
     write_merl(tmp_path / "holes.binary", values)
     values[0, 0, 0, 1] = np.inf
     write_merl(tmp_path / "infinite.binary", values)
+    write_merl(tmp_path / "large.binary", np.full((90, 90, 180, 3), 1e300))
     expected = {
         "missing.bsdf": "field 'ndf' is missing",
         "dark.bsdf": "field 'sigma' must be above zero everywhere",
@@ -231,6 +232,7 @@ def test_broken_files_are_refused_in_a_sentence(tmp_path: Path) -> None:
         "huge.binary": "its MERL header says 1073741824 x 1073741824 x 1073741824 bins; only",
         "holes.binary": "holds no measured bin; fetch it again.",
         "infinite.binary": "its green plane holds NaN or infinity; fetch it again.",
+        "large.binary": "its red plane holds NaN or infinity; fetch it again.",
         "picture.png": "is no MERL .binary, no RGL .bsdf and no .safetensors; these are read.",
         "letter.safetensors": "it is truncated, or no safetensors file.",
     }

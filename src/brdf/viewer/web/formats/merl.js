@@ -1,6 +1,6 @@
 // MERL's measured tables (see brdf.io.merl and brdf.representations.tables.merl).
 
-import { filled, isFiniteList } from "./bytes.js";
+import { filled } from "./bytes.js";
 
 const [ROWS, COLUMNS, TURN] = [90, 90, 180];
 const BINS = ROWS * COLUMNS * TURN;
@@ -47,13 +47,13 @@ export async function parseMerl(buffer, name, library) {
     FACTORS.forEach((factor, channel) => {
         const start = HEADER + channel * 8 * BINS;
         const plane = new Float64Array(buffer.slice(start, start + 8 * BINS));  // aligned
-        if (!isFiniteList(plane)) {
-            const colour = ["red", "green", "blue"][channel];
-            throw new Error(`${name}: its ${colour} plane holds NaN or infinity; fetch it again.`);
-        }
         for (let bin = 0; bin < BINS; bin++) {
             const node = Math.floor(bin / TURN) * NODES + (bin % TURN);
             texels[4 * node + channel] = plane[bin] * factor;
+            if (!Number.isFinite(texels[4 * node + channel])) {  // single precision, as it is kept
+                const colour = ["red", "green", "blue"][channel];
+                throw new Error(`${name}: its ${colour} plane holds NaN or infinity; fetch it again.`);
+            }
             if (plane[bin] < 0) holes[node] = 1;
         }
     });
