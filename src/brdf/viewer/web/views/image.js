@@ -158,7 +158,8 @@ class ImageSlice {
         }));
         const marks = powers(low, high).flatMap((power) => {
             const at = x + ((Math.log10(power.at) - low) / (high - low)) * width;
-            return [rule(at, y + 8, at, y + 12, { stroke: "var(--quiet)" }), text(power.text, at, y + 24)];
+            const free = at < x + width - 64;  // beside the unit
+            return [rule(at, y + 8, at, y + 12, { stroke: "var(--quiet)" }), text(free ? power.text : "", at, y + 24)];
         });
         return [...cells, ...marks, text("f [1/sr]", x + width, y + 24, "end")];
     }
