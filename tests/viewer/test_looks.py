@@ -104,6 +104,31 @@ def test_nothing_is_cut_off_at_any_size(viewer: Opened, size: Any) -> None:
         viewer.settle()
 
 
+def test_names_of_choices_are_whole(viewer: Opened) -> None:
+    viewer.home()
+    viewer.page.set_viewport_size(DESK)
+    viewer.page.locator("summary", has_text="Picture").evaluate("summary => { summary.parentElement.open = true; }")
+    names = viewer.page.get_by_role("radiogroup", name="Tone").get_by_role("radio")
+    assert names.first.is_visible()
+    assert names.evaluate_all("all => all.map((one) => one.scrollWidth > one.clientWidth)") == [False] * 5
+
+
+def test_between_a_plot_and_the_panel_the_picture_is_seen(viewer: Opened) -> None:
+    viewer.home()
+    for width in (660, 800, 940, 960):
+        viewer.page.set_viewport_size({"width": width, "height": 600})
+        viewer.set(compare="first", view="polar")
+        viewer.settle()
+        free = viewer.page.evaluate("viewer.panes[0].free")
+        assert min(free["width"], free["height"]) > 180
+        for cover in (".panel", ".drawer"):
+            box = viewer.page.locator(cover).bounding_box()
+            assert box is not None
+            beside = box["x"] >= free["x"] + free["width"] - 1 or box["x"] + box["width"] <= free["x"] + 1
+            assert beside or box["y"] >= free["y"] + free["height"] - 1
+    viewer.home()
+
+
 def test_a_plot_on_a_phone_moves_the_picture_and_its_light_together(viewer: Opened) -> None:
     viewer.home()
     viewer.page.set_viewport_size(PHONE)

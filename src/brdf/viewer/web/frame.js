@@ -106,6 +106,7 @@ class Frame {
      */
     free({ width, height }) {
         const at = { left: 0, top: 0, right: width, bottom: height };
+        let above = height;  // the drawer
         const canvas = this.viewer.canvas.getBoundingClientRect();
         for (const cover of [this.side, this.viewer.drawer.element]) {
             if (!cover.isConnected || cover.hidden || cover.classList.contains("folded")) continue;
@@ -113,10 +114,10 @@ class Frame {
             if (!box.width) continue;
             if (this.narrow) at.bottom = Math.min(at.bottom, box.top - canvas.top);
             else if (cover === this.side) at.right = Math.min(at.right, box.left - canvas.left);
-            else at.left = Math.max(at.left, box.right - canvas.left);
+            else [at.left, above] = [box.right - canvas.left, box.top - canvas.top];
         }
+        if (at.right - at.left < 200) Object.assign(at, { left: 0, bottom: Math.min(at.bottom, above) });
         if (at.bottom - at.top < 80) Object.assign(at, { bottom: height });
-        if (at.right - at.left < 200) Object.assign(at, { left: 0, right: width });
         const top = Math.min(at.top + 48, at.bottom - 40);
         return { x: at.left, y: top, width: at.right - at.left, height: at.bottom - top };
     }
