@@ -200,6 +200,11 @@ def test_the_address_carries_the_view(pair: Opened, browser: Browser, file: Path
         assert other.state == state
         other.page.evaluate("location.hash = ''")
         other.until("viewer.state.gain === 8")
+        other.page.evaluate("location.hash = 'zoom=3'")
+        other.until("viewer.state.zoom === 3")
+        other.page.evaluate("location.hash = 'gain=2&zoom=%22big%22'")
+        other.until("viewer.state.gain === 2")
+        assert other.state["zoom"] == 1  # as it was opened, not as it was
     with opened(browser) as broken:
         broken.open(address(file, "theta=1e999&lights=[{&mesh=%22nothing%22&zoom=%22big%22&exposure=99&%E0%A4%A"))
         assert (broken.state["theta"], broken.state["mesh"], broken.state["zoom"]) == (68, "sphere", 1)

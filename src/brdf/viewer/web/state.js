@@ -21,9 +21,7 @@ export const RANGES = {
     divider: [0, 1],
     gain: [1, 256],
     theta: [1, 179],
-    phi: [-1e6, 1e6],
     zoom: [0.2, 20],
-    turn: [-1e6, 1e6],
     strength: [0.01, 100],
     exposure: [-10, 10],
 };
@@ -65,6 +63,7 @@ export function merged(state, patch, payload) {
  * @param {import("./payload.js").Payload} payload
  */
 function validated(key, value, payload) {
+    if (key === "phi" || key === "turn") return Number.isFinite(value) ? value % 360 : undefined;
     if (RANGES[key]) return Number.isFinite(value) ? clamped(value, RANGES[key]) : undefined;
     const one = (/** @type {any[]} */ allowed) => (allowed.includes(value) ? value : undefined);
     const named = (/** @type {{name: string}[]} */ entries) => one(entries.map((entry) => entry.name));

@@ -121,7 +121,7 @@ export class Viewer {
         canvas.addEventListener("webglcontextlost", (event) => event.preventDefault(), { signal });
         canvas.addEventListener("webglcontextrestored", () => this.restore(), { signal });
         if (!this.options.embedded) {
-            const read = () => this.setState({ ...this.home, ...decodedHash(location.hash) });
+            const read = () => this.set(merged(this.home, decodedHash(location.hash), this.choices));
             window.addEventListener("hashchange", read, { signal });
         }
         const observer = new ResizeObserver(() => this.resize());
@@ -364,6 +364,7 @@ export class Viewer {
         material.use(stage);
         const { materials, parameters, compare } = this.state;
         const slot = compare === "first" ? 0 : 1;
+        const index = this.slots.take(slot, material);
         this.set({ materials: materials.with(slot, index), parameters: parameters.with(slot, {}) });
         this.frame.notice(`${source.shader.name} is shown as ${NAMES[slot]}.`);
     }
