@@ -168,3 +168,29 @@ def test_bad_meshes_say_what_is_wrong(tmp_path):
     (tmp_path / "flat.obj").write_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n")
     with pytest.raises(SceneError, match="area of zero"):
         load(tmp_path / "flat.obj")
+
+
+@pytest.mark.parametrize("kind", ["ascii.ply", "binary.ply", "ascii.stl", "binary.stl", "glb", "quads.ply"])
+def test_files_that_were_cut_off_are_refused(tmp_path, kind):
+    import trimesh
+
+    ball = trimesh.creation.icosphere(2)
+    whole = tmp_path / f"whole.{kind}"
+    if kind == "ascii.stl":
+        ball.export(whole, file_type="stl_ascii")
+    elif kind == "quads.ply":
+        corners = "".join(f"{x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1))
+        faces = "4 0 1 3 2\n4 4 6 7 5\n3 0 4 5\n3 0 5 1\n4 2 3 7 6\n"
+        properties = "property float x\nproperty float y\nproperty float z\n"
+        header = f"element vertex 8\n{properties}element face 5\nproperty list uchar int vertex_indices\n"
+        whole.write_text(f"ply\nformat ascii 1.0\n{header}end_header\n{corners}{faces}")
+    else:
+        ball.export(whole, **({"encoding": "ascii"} if kind == "ascii.ply" else {}))
+    assert len(load(whole).faces) == (8 if kind == "quads.ply" else 320)
+    content = whole.read_bytes()
+    cut = tmp_path / f"cut.{kind}"
+    for share in (0.4, 0.7, 0.9):
+        cut.write_bytes(content[: int(share * len(content))])
+        with pytest.raises(CorruptFileError, match=r"cut\..*truncated or damaged") as caught:
+            load(cut)
+        assert "\n" not in str(caught.value)

@@ -6,7 +6,7 @@ World frame: right-handed, +y up, +x to the right and +z towards the viewer of t
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -22,6 +22,8 @@ Floats = NDArray[np.float32]
 
 CREASE = 75.0
 """Degrees between two faces above which the edge between them stays sharp, where a file gives no normals."""
+
+TRUNCATED = "it is truncated or damaged; write it anew."
 
 
 @dataclass(frozen=True)
@@ -80,16 +82,22 @@ def _read(path: Path) -> Mesh:
     inputs.note(path)
     if path.is_dir():
         raise FileError(path, "is a folder; give a mesh file.")
+    if path.suffix.lower() == ".stl":
+        _require_whole_stl(path)
     try:
         loaded = trimesh.load(path, process=False)
         found: Any = loaded.to_geometry() if isinstance(loaded, trimesh.Scene) else loaded
     except (Exception, MemoryError) as error:  # each of trimesh's readers raises what it likes
         known = path.suffix.lower().lstrip(".") in trimesh.available_formats()
-        problem = f"cannot be read as a mesh ({_first_line(error)})" if known else "is of no known mesh format"
-        raise CorruptFileError(path, f"{problem}; .ply, .obj, .glb and .stl can be read.") from None
+        if known:
+            problem = f"cannot be read as a mesh ({_first_line(error)}); is it truncated or damaged? Write it anew."
+        else:
+            problem = "is of no known mesh format; .ply, .obj, .glb and .stl can be read."
+        raise CorruptFileError(path, problem) from None
+    _require_whole_ply(path, found.metadata.get("_ply_raw", {}))
     faces = getattr(found, "faces", None)
     if faces is None or len(faces) == 0:
-        raise SceneError(f"{path}: has no faces (a point cloud?), so there is nothing to render.")
+        raise SceneError(f"{path}: has no faces (a point cloud, or cut off?), so there is nothing to render.")
     vertices = np.asarray(found.vertices, np.float64)
     faces = np.asarray(faces)
     if faces.min() < 0 or faces.max() >= len(vertices) or not np.isfinite(vertices[faces]).all():
@@ -104,6 +112,29 @@ def _read(path: Path) -> Mesh:
     uv = getattr(found.visual, "uv", None)
     uvs = None if uv is None or len(uv) != len(vertices) else np.asarray(uv)[faces]
     return _made(path.name, vertices, faces, normals, uvs)
+
+
+def _require_whole_stl(path: Path) -> None:
+    """trimesh takes a binary file of another length than it says for text, and passes over what no `endsolid` ends.
+
+    Raises FileError, CorruptFileError.
+    """
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise FileError(path, f"cannot be read ({error.strerror}).") from None
+    triangles = int.from_bytes(content[80:84], "little")
+    if len(content) != 84 + 50 * triangles and b"endsolid" not in content[-1024:].lower():
+        raise CorruptFileError(path, f"ends too early: {TRUNCATED}")
+
+
+def _require_whole_ply(path: Path, elements: Mapping[str, Mapping[str, Any]]) -> None:
+    """trimesh makes do with fewer lines than the header promises. Raises CorruptFileError."""
+    for name, element in elements.items():
+        data = element.get("data", ())
+        rows = len(next(iter(data.values()), ())) if isinstance(data, dict) else len(data)
+        if rows < element["length"]:
+            raise CorruptFileError(path, f"has {rows} of {element['length']} elements {name!r}: {TRUNCATED}")
 
 
 def _once(faces: Any) -> Any:
