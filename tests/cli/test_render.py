@@ -53,3 +53,12 @@ def test_without_a_driver_a_note_says_what_to_install(brdf: Command, tmp_path: P
 def test_what_is_refused(refused: Command, tmp_path: Path, arguments: tuple[str, ...], said: str) -> None:
     assert said in refused("render", *SMALL, *arguments, "-o", "a.png")
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.usefixtures("gl")
+def test_what_is_drawn_alone_is_said_once_it_is_drawn(brdf: Command, refused: Command) -> None:
+    size = ("--size", "24x18", "--light", "directional:theta=40", "-o", "a.png")
+    assert "use the backend 'cpu'" in refused("render", "mirror", *size, "--backend", "gl")
+    outcome = brdf("render", "mirror", *size)
+    assert outcome.code == 0
+    assert "it is drawn alone" in outcome.err

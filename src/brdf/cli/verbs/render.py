@@ -81,6 +81,8 @@ def command(
     }
     if other is None:
         render(m, **options).save(path, tone=tone, exposure=exposure)
+        if label:
+            output.note(label)  # once it is true
         numbers: dict[str, Any] = {"material": m.name, "bytes": m.nbytes}
     else:
         image = render_halves(m, other, **options)
@@ -95,15 +97,14 @@ def command(
 
 
 def _stack(m: Reflectance) -> tuple[Reflectance | None, str]:
-    """The material's slice stack and what to call it, or nothing where there can or need be none."""
+    """The material's slice stack and what to call it; none and why, or "" where none is needed."""
     from ...conversion import bake
     from ...representations.baking.slice_stack import SliceStack
     from ...representations.tables.table import Table
 
     if not m.isotropic or m.transmits or m.has_delta:
         kind = "transmits" if m.transmits else "mirrors" if m.has_delta else "is anisotropic"
-        output.note(f"{m.name or type(m).__name__} {kind}, which a slice stack cannot hold; it is drawn alone")
-        return None, ""
+        return None, f"{m.name or type(m).__name__} {kind}, which a slice stack cannot hold; it is drawn alone"
     if isinstance(m, Table) and m.layout in SliceStack.layouts():
         return None, ""
     with output.working("baking the slice stack"):
