@@ -35,4 +35,7 @@ def test_mistakes_are_one_line(refused: Refused) -> None:
     assert "a port lies between 1 and 65535, got -1" in refused("view", "GGX", "--port", -1)
     assert "did you mean 'GGX'" in refused("view", "GXG")
     assert "unknown mesh 'teapott'" in refused("view", "GGX", "--mesh", "teapott")
+    for exposure in ("nan", "inf", "1e9", "-101"):
+        said = f"exposure must lie in [-100, 100] stops, got {float(exposure)!r}"
+        assert said in refused("view", "GGX", "--exposure", exposure)
     assert "missing argument" in refused("view")

@@ -65,6 +65,12 @@ CURVES: dict[str, Callable[[Floats], Floats]] = {
 """In the order in which shaders number them."""
 
 
+def require_exposure(exposure: float) -> None:
+    """Raises ParameterError for one that is out of its bounds."""
+    if not abs(exposure) <= MOST_STOPS:
+        raise ParameterError(f"exposure must lie in [-{MOST_STOPS}, {MOST_STOPS}] stops, got {exposure!r}")
+
+
 def developed(linear: Floats, tone: str = "filmic", exposure: float = 0.0) -> Floats:
     """Linear radiance, RGB in the last axis -> values in [0, 1] as sRGB encodes them; for "linear" as they are.
 
@@ -74,8 +80,7 @@ def developed(linear: Floats, tone: str = "filmic", exposure: float = 0.0) -> Fl
     """
     if tone not in CURVES:
         raise UnknownNameError("tone curve", tone, CURVES)
-    if not abs(exposure) <= MOST_STOPS:
-        raise ParameterError(f"exposure must lie in [-{MOST_STOPS}, {MOST_STOPS}] stops, got {exposure!r}")
+    require_exposure(exposure)
     linear = np.asarray(linear)
     # Beyond 1e4 every curve is white; the bound keeps their squares finite.
     exposed = np.clip(linear * linear.dtype.type(2.0**exposure), 0, 1e4)

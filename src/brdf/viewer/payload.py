@@ -17,7 +17,7 @@ from ..render import mesh as meshes_of
 from ..render.environment import Environment
 from ..render.lights import Directional, Light, Point
 from ..render.mesh import Mesh
-from ..render.tone import CURVES
+from ..render.tone import CURVES, require_exposure
 from ..shaders import stages
 from . import environments, materials, meshes
 from .blob import Blob, container
@@ -56,6 +56,7 @@ class View:
             raise SceneError(f"a page shows at most {MOST_LIGHTS} lights, got {len(lights)}")
         if self.tone not in CURVES:
             raise UnknownNameError("tone curve", self.tone, CURVES)
+        require_exposure(self.exposure)
         env = "studio" if self.env is None and not lights else self.env
         object.__setattr__(self, "chosen_mesh", meshes_of.load(self.mesh))
         object.__setattr__(self, "chosen_lights", lights)
