@@ -46,6 +46,22 @@ def is_file(spec: str) -> bool:
     return os.path.exists(spec) and not _is_name(spec.strip())
 
 
+def files_of(spec: str | os.PathLike[str]) -> list[Path]:
+    """The files that `load` reads for a description: of a sum all, of pictures that a file names their folder."""
+    if isinstance(spec, os.PathLike) or (os.path.isfile(spec) and not _is_name(spec)):
+        found = [Path(spec)]
+    else:
+        found = [path for term in _PLUS.split(spec) if (path := _file_of(term)) is not None]
+    return [path.parent if io.is_folder_file(path) else path for path in found]
+
+
+def _file_of(term: str) -> Path | None:
+    match = _SCALED.fullmatch(term)
+    text = (match[2] if match else term).strip()
+    file = text if os.path.exists(text) else text.rpartition("@")[0]
+    return Path(file) if os.path.exists(file) and not _is_name(text) else None
+
+
 def names_profile(spec: str) -> bool:
     """Whether the description is one of a profile of subsurface scattering."""
     return spec.partition(":")[0].strip().lower() in profiles.names()

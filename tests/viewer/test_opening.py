@@ -21,7 +21,7 @@ from brdf.viewer.payload import View
 from brdf.viewer.widget import _widget_class
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser
+    from playwright.sync_api import Browser, Page
 
 LIMIT = 60.0
 
@@ -37,7 +37,7 @@ def test_the_page_is_served_with_its_data_and_picture() -> None:
         page = got(server.address).decode()
         assert "<title>GGX · Lambertian:albedo=.5</title>" in page
         assert 'id="payload"' not in page
-        assert '<img data-src="picture"' in page  # asked for where the viewer cannot run, for it takes seconds to draw
+        assert '<noscript><img src="picture"' in page  # only where it is needed, for it takes seconds to draw
         assert "connect-src 'self'" in page
         about, _ = containers.read(got(f"{server.address}payload"))
         assert about["title"] == "GGX · Lambertian:albedo=.5"
@@ -172,3 +172,132 @@ def test_an_open_page_follows_the_file(browser: Browser, tmp_path: Path) -> None
             assert page.state["exposure"] == 1  # what was chosen stays
     finally:
         server.stop()
+
+
+def test_changes_in_quick_succession_leave_one_viewer(browser: Browser, tmp_path: Path) -> None:
+    path = tmp_path / "m.safetensors"
+    GGX(alpha=0.2).save(path)
+    server = opening.serve([path], View(mesh="sphere"))
+    try:
+        with opened(browser) as page:
+            page.open(server.address)
+            for number in range(1, 5):
+                GGX(alpha=number / 10).save(path)
+                announce(server)
+            page.until("viewer.slots.at(0).values.alpha === 0.4")
+            page.page.locator("#picture").wait_for(state="detached")
+            assert page.page.locator("#viewer canvas").count() == page.page.locator("#viewer > *").count() == 1
+    finally:
+        server.stop()
+
+
+def announce(server: Any) -> None:
+    """As if a changed file was seen."""
+    with server._lock:
+        server._made = None
+    with server._news:
+        server.version += 1
+        server._news.notify_all()
+
+
+def test_what_changes_before_the_page_listens_is_shown(browser: Browser, tmp_path: Path) -> None:
+    path = tmp_path / "m.safetensors"
+    GGX(alpha=0.2).save(path)
+    server = opening.serve([path], View(mesh="sphere"))
+    try:
+        with opened(browser) as page:
+
+            def late(route: Any) -> None:
+                GGX(alpha=0.7).save(path)
+                while server.after(0) == 0:
+                    pass
+                route.continue_()
+
+            page.page.route("**/events", late)
+            page.open(server.address)
+            page.until("viewer.slots.at(0).values.alpha === 0.7")
+    finally:
+        server.stop()
+
+
+def test_a_page_of_a_broken_file_says_so_and_recovers(browser: Browser, tmp_path: Path) -> None:
+    path = tmp_path / "m.safetensors"
+    GGX(alpha=0.2).save(path)
+    server = opening.serve([path], View(mesh="sphere"))
+    context = browser.new_context()
+    try:
+        page = context.new_page()
+        page.goto(server.address)
+        whole = path.read_bytes()
+        path.write_bytes(whole[:-20])
+        says(page, "m.safetensors: ")
+        page.reload()
+        says(page, "m.safetensors: ")
+        assert page.locator("#picture img").count() == 0
+        path.unlink()
+        says(page, "m.safetensors: no such file")
+        path.write_bytes(whole)
+        page.locator("#viewer canvas").wait_for()
+        page.locator("#picture").wait_for(state="detached")
+    finally:
+        context.close()
+        server.stop()
+
+
+def says(page: Page, text: str) -> None:
+    page.locator("figcaption", has_text=text).wait_for(timeout=LIMIT * 1000)
+
+
+def test_without_scripts_or_webgl_there_is_a_picture(browser: Browser) -> None:
+    server = opening.serve([GGX()], View(mesh="sphere"))
+    none = "HTMLCanvasElement.prototype.getContext = () => null"
+    try:
+        for options, script in (({"java_script_enabled": False}, ""), ({}, none)):
+            context = browser.new_context(**options)  # type: ignore[arg-type]
+            page = context.new_page()
+            page.add_init_script(script)
+            with page.expect_response("**/picture*", timeout=LIMIT * 1000) as answer:
+                page.goto(server.address)
+            assert answer.value.ok
+            page.locator("#picture img").wait_for()
+            context.close()
+    finally:
+        server.stop()
+
+
+def test_what_is_followed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    GGX(alpha=0.2).save("m.safetensors")
+    brdf.io.write(brdf.SphereImages.bake(Lambertian(), angles=(0, 90), size=16), "spheres/")
+    mesh = tmp_path / "m.obj"
+    mesh.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "utf-8")
+
+    def names(*shown: Any, **start: Any) -> list[str]:
+        return [str(path) for path in opening.followed(shown, View(**start))]
+
+    assert names(GGX(), "GGX", "gold-metallic-paint") == []
+    assert names("m.safetensors + .5*Lambertian:albedo=.1") == ["m.safetensors"]
+    assert names("m.safetensors@NAME") == ["m.safetensors"]
+    assert names("spheres") == names("spheres/sphere-images.json") == ["spheres"]
+    assert names(Path("m.safetensors"), "m.safetensors", mesh=mesh) == ["m.safetensors", "m.safetensors", str(mesh)]
+    assert names("GGX", mesh="m.obj", env="studio") == ["m.obj"]
+
+
+def test_the_mesh_is_read_again(tmp_path: Path) -> None:
+    path = tmp_path / "m.obj"
+    corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"
+    path.write_text(corners, "utf-8")
+    server = opening.serve([GGX()], View(mesh=path, lights=iter(["directional:theta=40"])))
+    try:
+        assert faces(got(f"{server.address}payload")) == 1
+        path.write_text(corners + "f 1 2 4\n", "utf-8")
+        while server.after(0) == 0:
+            pass
+        assert faces(got(f"{server.address}payload")) == 2
+    finally:
+        server.stop()
+
+
+def faces(payload: bytes) -> int:
+    about, _ = containers.read(payload)
+    return int(about["meshes"][0]["faces"])

@@ -115,8 +115,9 @@ def test_a_changed_file_is_served_anew_and_told_to_open_pages(server: Server, wa
     connection.request("GET", f"/{server.token}/events")
     events = connection.getresponse()
     assert events.getheader("Content-Type") == "text/event-stream"
+    assert told(events) == 0  # a page that connects late learns what there is
     watched.write_text("second", "utf-8")
-    assert events.readline() == b"event: changed\n"
+    assert told(events) == 1
     assert ask(server)[1] == b"<p>second"
     watched.write_text("broken", "utf-8")
     until(lambda: server.version == 2)
@@ -126,6 +127,46 @@ def test_a_changed_file_is_served_anew_and_told_to_open_pages(server: Server, wa
     watched.write_text("the third", "utf-8")
     until(lambda: ask(server)[1] == b"<p>the third")
     connection.close()
+
+
+def told(events: http.client.HTTPResponse) -> int:
+    """The next version of which a stream tells."""
+    while not (line := events.readline()).startswith(b"data: "):
+        assert line
+    return int(line.removeprefix(b"data: "))
+
+
+def test_of_two_files_one_may_be_missing(server: Server, watched: Path) -> None:
+    other = watched.with_name("other.txt")
+    other.write_text("other", "utf-8")
+    running = Server(lambda: Contents("", bytes, bytes), [watched, other])
+    try:
+        other.unlink()
+        until(lambda: running.version == 1)
+        watched.write_text("second", "utf-8")
+        until(lambda: running.version == 2)
+        other.write_text("again", "utf-8")
+        until(lambda: running.version == 3)
+    finally:
+        running.stop()
+
+
+def test_a_file_that_is_replaced_is_no_missing_one(server: Server, watched: Path) -> None:
+    looks = iter([b"first", None, b"second", b"second", None, None, None])
+    server.stop()
+    server._seen = server._last = [b"first"]  # type: ignore[list-item]
+    server._stamps = lambda: [next(looks)]  # type: ignore[method-assign, list-item]
+    assert [server._changed() for _ in range(7)] == [False, False, True, False, False, True, False]
+
+
+def test_the_files_of_a_folder_are_watched(tmp_path: Path) -> None:
+    (tmp_path / "picture.png").write_bytes(b"1")
+    running = Server(lambda: Contents("", bytes, bytes), [tmp_path])
+    try:
+        (tmp_path / "picture.png").write_bytes(b"22")
+        until(lambda: running.version == 1)
+    finally:
+        running.stop()
 
 
 def until(holds: object) -> None:
@@ -145,7 +186,7 @@ def test_stopping_ends_the_threads_and_open_streams(server: Server) -> None:
     server.stop()
     waiting.join(LIMIT)
     assert not waiting.is_alive()
-    assert b"changed" not in events.read()
+    assert b"data: 1" not in events.read()
     with pytest.raises(OSError):
         socket.create_connection((HOST, server.port), 1.0)
 

@@ -93,6 +93,11 @@ def read(path: str | os.PathLike[str], member: str | None = None) -> Reflectance
         raise FileError(path, f"cannot be read ({error.strerror or error}).") from None
 
 
+def is_folder_file(path: Path) -> bool:
+    """Whether it is called as the file that, with others beside it, makes a folder of some format."""
+    return path.name in [f.folder_file for f in _all()]
+
+
 def members(path: str | os.PathLike[str]) -> list[str]:
     """The names of the materials in a file that holds several, [] for every other. Raises as `read`."""
     format_ = format_of(path)

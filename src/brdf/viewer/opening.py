@@ -7,11 +7,12 @@ import sys
 import threading
 import webbrowser
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
-from ..errors import ParameterError
-from ..loading import is_file, load
+from ..errors import BrdfError, ParameterError
+from ..loading import files_of, load
 from ..reflectance import Reflectance
 from .page import document
 from .payload import View, payload, title_of
@@ -57,15 +58,43 @@ def serve(shown: Sequence[Shown], start: View, port: int = 0) -> Server:
     """A running server of the page. Raises as `load`, and ParameterError for a port that cannot be used."""
     if not shown:
         raise ParameterError("there is nothing to show; give at least one reflectance")
-    loaded: list[Reflectance] | None = [_loaded(m) for m in shown]
+    watched = followed(shown, start)
+    first: Contents | None = _contents([_loaded(m) for m in shown], start)
 
     def make() -> Contents:
-        nonlocal loaded
-        now, loaded = loaded or [_loaded(m) for m in shown], None
-        data, image = Once(lambda: payload(now, start, compare=False)), Once(lambda: picture_of(now, start))
-        return Contents(document(title_of(now), "picture"), data, image)
+        nonlocal first
+        made, first = first, None
+        return made or _read_again(shown, start)
 
-    return Server(make, [Path(m) for m in shown if not isinstance(m, Reflectance) and is_file(os.fspath(m))], port)
+    return Server(make, watched, port)
+
+
+def _contents(shown: Sequence[Reflectance], start: View) -> Contents:
+    data, image = Once(lambda: payload(shown, start, compare=False)), Once(lambda: picture_of(shown, start))
+    return Contents(document(title_of(shown), "picture"), data, image)
+
+
+def _read_again(shown: Sequence[Shown], start: View) -> Contents:
+    try:
+        # Lights may have come from what can be gone through once; the mesh and the environment are read anew.
+        return _contents([_loaded(m) for m in shown], replace(start, lights=start.chosen_lights))
+    except BrdfError as error:
+        problem = error
+
+    def fail() -> NoReturn:
+        raise problem
+
+    title = " · ".join(m.name or type(m).__name__ if isinstance(m, Reflectance) else os.fspath(m) for m in shown)
+    return Contents(document(title, "picture"), fail, fail)
+
+
+def followed(shown: Sequence[Shown], start: View) -> list[Path]:
+    """The files whose changes a page shows: of the reflectances, the mesh and the environment."""
+    found = [path for m in shown if not isinstance(m, Reflectance) for path in files_of(m)]
+    for given in (start.mesh, start.env):
+        if isinstance(given, (str, os.PathLike)) and os.path.isfile(given):
+            found.append(Path(given))
+    return found
 
 
 def run(server: Server, browser: bool) -> None:

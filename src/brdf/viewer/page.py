@@ -39,15 +39,16 @@ def document(title: str, image: str, data: bytes | None = None) -> str:
     """The page's HTML. `image`: address of the picture. `data`: the container, None where the page asks its server."""
     boot, code = scripts()
     digests = [base64.b64encode(hashlib.sha256(script.encode()).digest()).decode() for script in (boot, code)]
+    width, height = PICTURE_SIZE
+    tag = f'<img src="{html.escape(image)}" width="{width}" height="{height}" alt="{html.escape(title)}">'
     allowed = {"scripts": " ".join(f"'sha256-{digest}'" for digest in digests)}
     return Template(sources()["page.html"]).substitute(
         title=html.escape(title),
         policy=POLICY.format(**allowed, **(SERVED if data is None else ALONE)),
         style=minified(sources()["style.css"], "text/css"),
-        source="data-src" if data is None else "src",
-        image=html.escape(image),
-        width=PICTURE_SIZE[0],
-        height=PICTURE_SIZE[1],
+        image=f"<noscript>{tag}</noscript>"
+        if data is None
+        else tag,  # served, it takes seconds to draw: only if needed
         data="" if data is None else f'<script type="text/plain" id="payload">{packed(data)}</script>',
         code=packed(code.encode()),
         boot=boot,

@@ -26,9 +26,12 @@ HEARTBEAT_SECONDS = 10.0
 PATIENCE_SECONDS = 30.0
 """For which a connection may say nothing."""
 
+Stamp = tuple[tuple[str, int, int, int], ...]
+"""Of a file, or of all in a folder: name, time, size, number."""
+
 
 class Contents(NamedTuple):
-    """What a page asks for."""
+    """What a page asks for. Data and picture may raise BrdfError: the document is served all the same, and says so."""
 
     document: str
     payload: Callable[[], bytes]
@@ -38,14 +41,14 @@ class Contents(NamedTuple):
 class Server:
     """Serves one page until `stop`, on a thread of its own.
 
-    `make` gives what is served; where a file of `watched` changes it is asked anew, and open pages reload. `port`: 0
-    for any free one. Raises ParameterError for a port that is taken or none.
+    `make` gives what is served; where a file of `watched`, or one in a folder of it, changes, it is asked anew, and
+    open pages reload. `port`: 0 for any free one. Raises ParameterError for a port that is taken or none.
     """
 
     def __init__(self, make: Callable[[], Contents], watched: Sequence[Path] = (), port: int = 0) -> None:
         self._make, self._watched = make, tuple(watched)
         self._made: Contents | None = None
-        self._seen = self._stamps()
+        self._seen = self._last = self._stamps()
         self._lock = threading.Lock()
         self._news = threading.Condition()
         self.version = 0
@@ -103,25 +106,32 @@ class Server:
         while not self.stopped:
             with self._news:
                 self._news.wait_for(lambda: self.stopped, POLL_SECONDS)
-            stamps = self._stamps()
-            if stamps != self._seen and None not in stamps:  # a file that is being replaced is there again soon
-                self._seen = stamps
+            if self._changed():
                 with self._lock:
                     self._made = None
                 with self._news:
                     self.version += 1
                     self._news.notify_all()
 
-    def _stamps(self) -> list[tuple[int, int] | None]:
+    def _changed(self) -> bool:
+        """Whether a file is another than at the last look. One that is being replaced is there again soon: that it is
+        gone counts when it is seen twice."""
+        now, last, seen = self._stamps(), self._last, self._seen
+        self._last = now
+        self._seen = [old if new is None and before else new for new, before, old in zip(now, last, seen, strict=True)]
+        return self._seen != seen
+
+    def _stamps(self) -> list[Stamp | None]:
         return [_stamp(path) for path in self._watched]
 
 
-def _stamp(path: Path) -> tuple[int, int] | None:
+def _stamp(path: Path) -> Stamp | None:
     try:
-        status = path.stat()
+        files = sorted(path.iterdir()) if path.is_dir() else [path]
+        found = [(file.name, file.stat()) for file in files]
     except OSError:
         return None
-    return status.st_mtime_ns, status.st_size
+    return tuple((name, status.st_mtime_ns, status.st_size, status.st_ino) for name, status in found)
 
 
 class _HTTPServer(ThreadingHTTPServer):
@@ -186,15 +196,16 @@ class _Handler(BaseHTTPRequestHandler):
         self._answer(HTTPStatus.OK, "image/webp", self.server.owner.contents.picture())
 
     def _events(self) -> None:
-        """Server-sent events: "changed" whenever there is something new."""
+        """Server-sent events: the version, at first and whenever there is another. A page that connects late, or anew,
+        so learns what it missed."""
         owner = self.server.owner
         self.close_connection = True
         self._head(HTTPStatus.OK, "text/event-stream")
         self.end_headers()
-        version = owner.version
+        version = -1
         while not owner.stopped and self.command == "GET":
             known, version = version, owner.after(version)
-            self.wfile.write(b"event: changed\ndata: \n\n" if version != known else b": here\n\n")
+            self.wfile.write(f"data: {version}\n\n".encode() if version != known else b": here\n\n")
             self.wfile.flush()
 
     def _answer(self, status: HTTPStatus, kind: str, body: bytes, compress: bool = False) -> None:

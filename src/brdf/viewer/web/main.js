@@ -21,15 +21,24 @@ async function payloadBytes() {
 /**
  * @param {HTMLElement} root
  * @param {HTMLElement} picture what stands there until the first frame, and where there can be none
+ * @param {string} version of what is served
+ * @param {import("./viewer.js").Viewer | null} before what is shown until there is something new
  */
-async function show(root, picture) {
+async function show(root, picture, version = "", before = null) {
+    const bytes = await payloadBytes().catch((error) => /** @type {Error} */ (error));
+    before?.destroy();
     try {
-        const viewer = mount(root, await payloadBytes(), { picture });
+        if (bytes instanceof Error) throw bytes;
+        const viewer = mount(root, bytes, { picture });
         Object.assign(globalThis, { viewer });  // for the console: viewer.state, viewer.setState({ … })
         return viewer;
     } catch (error) {
-        const image = picture.querySelector("img");
-        if (image?.dataset.src) image.src = image.dataset.src;  // from the server only where it is needed
+        const served = picture.querySelector("noscript");
+        if (served) {  // by the server, which has no picture of what it cannot read
+            picture.querySelector("img")?.remove();
+            const image = served.textContent.replace("picture", `picture?${version}`);
+            if (!(bytes instanceof Error)) served.insertAdjacentHTML("afterend", image);
+        }
         const caption = picture.querySelector("figcaption");
         if (caption) caption.textContent = error instanceof Error ? error.message : String(error);
         root.replaceChildren(picture);
@@ -37,15 +46,18 @@ async function show(root, picture) {
     }
 }
 
-async function start() {
+function start() {
     const root = /** @type {HTMLElement} */ (document.getElementById("viewer"));
     const picture = /** @type {HTMLElement} */ (document.getElementById("picture"));
-    let viewer = await show(root, picture);
-    if (document.getElementById("payload")) return;
-    new EventSource("events").addEventListener("changed", async () => {
-        viewer?.destroy();
-        viewer = await show(root, picture);
-    });
+    if (document.getElementById("payload")) return void show(root, picture);
+    let newest = "";
+    let last = /** @type {ReturnType<typeof show>} */ (Promise.resolve(null));
+    // It says its version whenever it is connected to. One after another, and none that is old by then.
+    new EventSource("events").onmessage = ({ data }) => {
+        if (data === newest) return;
+        newest = data;
+        last = last.then((viewer) => data === newest ? show(root, picture, data, viewer) : viewer);
+    };
 }
 
 start();
