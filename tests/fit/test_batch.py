@@ -163,7 +163,7 @@ def test_failures_are_in_the_order_of_the_command(tmp_path: Path, monkeypatch: p
         (["Ward"], {"lobes": "2"}, "lobes must be 1 to 3 or \"auto\", got '2'"),
         (["Ward"], {"fixed": ["lobe2_alpha", "lobe2_alfa"]}, "unknown parameter of Ward 'lobe2_alfa'"),
         (["Ward"], {"budget": 0}, "a fit begins 1 to 4096 searches, got 0"),
-        (["Ward"], {"seed": -1}, "the seed must be at least 0, got -1"),
+        (["Ward"], {"seed": -1}, "a seed is a whole number from 0 on, got -1"),
         (["Ward"], {"grazing": 91.0}, r"the grazing angle must lie in \(0, 90\] degrees, got 91"),
     ],
 )

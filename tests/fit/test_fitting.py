@@ -276,6 +276,14 @@ def test_so_are_rows_of_astm_and_alta_text(extension: str, tmp_path: Path) -> No
     np.testing.assert_allclose(samples.values, model(samples.wi, samples.wo), rtol=1e-4, atol=1e-6)
 
 
+def test_values_below_zero_in_rows_of_alta_text_are_left_out(tmp_path: Path) -> None:
+    path = tmp_path / "m.alta"
+    path.write_text("#DIM 2 1\n#PARAM_IN RUSIN_TH_TD\n0.1 0.2 0.5\n0.2 0.2 -1\n0.3 0.2 0.25\n")
+    samples, _ = data_of(path)
+    assert (len(samples), samples.left_out) == (2, 1)
+    np.testing.assert_array_equal(samples.values[:, 0], [0.5, 0.25])
+
+
 def test_the_result_is_saved_as_a_material(tmp_path: Path) -> None:
     r = brdf.fit(noisy(0), Ward, budget="quick")
     r.save(tmp_path / "x.safetensors")

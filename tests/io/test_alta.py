@@ -76,6 +76,10 @@ def test_colours_and_intervals(tmp_path):
     white = np.stack([0 * WO[:, 2] + k for k in (0.9504559, 1, 1.0890578)])
     path = written(tmp_path / "m.dat", "CARTESIAN", white, "XYZ_COLOR")
     np.testing.assert_allclose(alta.read_samples(path)[2], 1, atol=2e-4)
+    path = written(tmp_path / "m.dat", "CARTESIAN", white * [[0.0], [1], [0]], "XYZ_COLOR")
+    green = alta.read_samples(path)[2]  # out of gamut
+    assert (green[:, [0, 2]] == 0).all()
+    assert (green[:, 1] > 1).all()
     path.write_text("#DIM 2 1\n#PARAM_IN RUSIN_TH_TD\n#VS 2\n0.1 0.2 5 4 6\n0.3 0.2 5 4 6\n")
     np.testing.assert_array_equal(alta.read_samples(path)[2], 5)
 

@@ -3,8 +3,9 @@
 from ..callable_module import make_callable
 from .batch import Batch, fit_many
 from .data import Data, data_of
-from .fitting import BUDGETS, fit
+from .fitting import fit
 from .losses import LOSSES
+from .options import BUDGETS
 from .result import IMAGE, Estimate, FitResult
 from .samples import GRAZING, Samples, samples_of
 

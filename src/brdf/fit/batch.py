@@ -26,11 +26,9 @@ from ..loading import is_file
 from ..reflectance import Reflectance
 from ..threads import cores
 from .data import Data, data_of
-from .fitting import fit, starts_of
-from .losses import LOSSES
+from .fitting import fit
+from .options import Options
 from .parameters import components
-from .result import IMAGE
-from .robust import require_known
 from .samples import GRAZING
 from .template import template_of
 from .workers import outcomes
@@ -119,7 +117,7 @@ def fit_many(
     """
     if jobs < 1:
         raise ParameterError(f"jobs must be at least 1, got {jobs}")
-    _require(models, **options)
+    _require(models, Options(**options))
     folder = Path(folder)
     tasks = _tasks(data, models, options)
     _prepare(folder)
@@ -143,32 +141,16 @@ def fit_many(
     )
 
 
-def _require(
-    models: Sequence[str], *, lobes: int | str = 1, metric: str = "l2", diffuse: bool | None = None,
-    fixed: Sequence[str] = (), grazing: float = GRAZING, robust: str | None = None, budget: str | int = "normal",
-    seed: int = 0,
-) -> None:  # fmt: skip
+def _require(models: Sequence[str], options: Options) -> None:
     """What is wrong whatever the data are is said once, before anything is read or made."""
     if not models:
         raise ParameterError("no model is named; name one or more, as GGX,Ward; `brdf list models` has them all")
-    if metric != IMAGE and metric not in LOSSES:
-        raise UnknownNameError("metric", metric, [*LOSSES, IMAGE])
-    if robust is not None:
-        require_known(robust)
-        if metric == IMAGE:
-            raise ParameterError("the image metric has no robust form; choose another metric or leave the loss out")
-    if not 0 < grazing <= 90:
-        raise ParameterError(f"the grazing angle must lie in (0, 90] degrees, got {grazing:g}")
-    if seed < 0:
-        raise ParameterError(f"the seed must be at least 0, got {seed}")
-    starts_of(budget)
-    if not isinstance(lobes, int) and lobes != "auto":
-        raise ParameterError(f'lobes must be 1 to 3 or "auto", got {lobes!r}')
+    lobes = 1 if isinstance(options.lobes, str) else options.lobes
     for model in models:
         # those of anisotropic data have more parameters
-        either = [template_of(model, lobes if isinstance(lobes, int) else 1, diffuse, given) for given in (True, False)]
-        known = {c.parameter for template in either for c in components(template)} if fixed else {}
-        for name in fixed:
+        either = [template_of(model, lobes, options.diffuse, given) for given in (True, False)]
+        known = {c.parameter for template in either for c in components(template)} if options.fixed else {}
+        for name in options.fixed:
             if name not in known:
                 raise UnknownNameError(f"parameter of {model}", name, known)
 

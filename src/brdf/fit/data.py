@@ -6,9 +6,7 @@ import os
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import numpy as np
-
-from ..geometry.directions import from_spherical
+from ..geometry.directions import pairs_from_spherical
 from ..io import alta, astm, gonio
 from ..io.registry import format_of
 from ..loading import is_file, load
@@ -42,13 +40,12 @@ def _rows(path: Path, grazing: float, m: Reflectance) -> Samples | None:
     """What a file of scattered measurements holds, row by row; None of any other file."""
     kind = format_of(path)
     if kind is alta.FORMAT:
-        wi, wo, rgb = alta.read_samples(path)
+        wi, wo, values = alta.read_samples(path)
     elif kind in (astm.FORMAT, gonio.FORMAT):
         wavelengths, angles, values = astm.read_rows(path) if kind is astm.FORMAT else gonio.read_rows(path)
         if wavelengths is not None:
             return from_rows(angles, values, wavelengths, grazing, m.name, m.source)
-        wi, wo = (from_spherical(angles[:, k], angles[:, k + 1]) for k in (0, 2))
-        rgb = values
+        wi, wo = pairs_from_spherical(angles)
     else:
         return None
-    return Samples.of(wi, wo, np.maximum(rgb, 0), 1.0, grazing, m.name, m.source)
+    return Samples.of(wi, wo, values, 1.0, grazing, m.name, m.source)

@@ -20,17 +20,15 @@ from .equations import Equations, Normal, rows_of
 from .levenberg import Problem, Search, advance, begin
 from .losses import LOSSES, Loss, loss_named
 from .multistart import FEW, distinct, energy_of, polish, run_rounds, same, start_points, stratified
+from .options import Options
 from .parameters import Component, components, grouped, with_values
 from .pictures import PictureEquations, radiances
 from .result import IMAGE, Estimate, FitResult, errors_of, residual_map
-from .robust import MOST, refine, require_known
+from .robust import MOST, refine
 from .samples import GRAZING, Samples
-from .template import MOST_LOBES, most_lobes, template_of
+from .template import most_lobes, template_of
 
 Array = NDArray[Any]
-
-BUDGETS = {"quick": 4, "normal": 16, "thorough": 64}
-"""Searches that are begun."""
 
 MOST_STEPS = 200
 """Of the last search, on all samples."""
@@ -64,27 +62,18 @@ def fit(
     Raises ParameterError, UnknownNameError, ReflectanceError.
     """
     begun = time.perf_counter()
-    starts = starts_of(budget)
-    if not isinstance(seed, (int, np.integer)) or seed < 0:
-        raise ParameterError(f"a seed is a whole number from 0 on, got {seed!r}")
-    if robust is not None:
-        require_known(robust)
-    if metric != IMAGE and metric not in LOSSES:
-        raise UnknownNameError("metric", str(metric), [*LOSSES, IMAGE])
+    options = Options(lobes, metric, diffuse, fixed, grazing, robust, budget, seed)
     samples, reflectance = data if isinstance(data, Data) else data_of(data, grazing)
-    if metric == IMAGE and (reflectance is None or robust is not None):
-        raise ParameterError("the image metric needs a reflectance to make pictures of, and has no robust form")
+    if metric == IMAGE and reflectance is None:
+        raise ParameterError("the image metric needs a reflectance to make pictures of")
     isotropic = reflectance is None or reflectance.isotropic
     pictures = radiances(reflectance) if reflectance is not None else None
-    counts = range(1, most_lobes(model) + 1) if lobes == "auto" else [lobes]
     results = []
-    for count in counts:
-        if not isinstance(count, int):
-            raise ParameterError(f'lobes must be 1 to {MOST_LOBES} or "auto", got {count!r}')
+    for count in range(1, most_lobes(model) + 1) if isinstance(lobes, str) else [int(lobes)]:
         template = template_of(model, count, diffuse, isotropic)
         name = model if isinstance(model, str) else getattr(model, "__name__", "") or _label(model)
         say(f"{name}, {count} lobes" if count > 1 else name)
-        one = _Fit(template, samples, pictures, metric, fixed, robust, starts, seed, say)
+        one = _Fit(template, samples, pictures, options, say)
         results.append(one.result(name, count, begun))
     return min(results, key=lambda r: r.bic)
 
@@ -93,39 +82,30 @@ def _label(model: Any) -> str:
     return str(getattr(model, "name", "") or type(model).__name__)
 
 
-def starts_of(budget: str | int) -> int:
-    if isinstance(budget, str) and budget not in BUDGETS:
-        raise UnknownNameError("budget", budget, BUDGETS)
-    starts = BUDGETS[budget] if isinstance(budget, str) else budget
-    if not isinstance(starts, (int, np.integer)) or not 1 <= starts <= 4096:
-        raise ParameterError(f"a fit begins 1 to 4096 searches, got {starts}")
-    return starts
-
-
 class _Fit:
     """One template fitted to one set of samples."""
 
     def __init__(
-        self, template: Reflectance, samples: Samples, pictures: Array | None, metric: str, fixed: Sequence[str],
-        robust: str | None, starts: int, seed: int, say: Callable[[str], None],
+        self, template: Reflectance, samples: Samples, pictures: Array | None, options: Options,
+        say: Callable[[str], None],
     ) -> None:  # fmt: skip
         if not template.has_formula or template.transmits or template.has_delta:
             raise ReflectanceError(f"{template.name} has no formula of reflection, or mirrors: a fit needs values")
         self.template, self.samples, self.pictures = template, samples, pictures
-        self.metric, self.robust, self.starts, self.seed, self.say = metric, robust, starts, seed, say
-        self.loss: Loss = loss_named("l2" if metric == IMAGE else metric)
+        self.options, self.say = options, say
+        self.loss: Loss = loss_named("l2" if options.metric == IMAGE else options.metric)
         self.components = components(template)
-        self.free = _free(self.components, fixed)
+        self.free = _free(self.components, options.fixed)
         self.linear = np.array([c.is_linear for c in self.components])
 
     def result(self, name: str, lobes: int, begun: float) -> FitResult:
-        few = stratified(self.samples, self.loss, FEW, self.seed)
+        few = stratified(self.samples, self.loss, FEW, self.options.seed)
         # Colours are solved for in a quadratic loss with the slope of the wanted one at the data.
         quadratic = few if self.loss.quadratic else _linearised(few, self.loss)
         equations = Equations(self.template, quadratic, LOSSES["l2"])
-        self.free &= ~_interchangeable(self.template, self.linear, self.free, self.seed)
+        self.free &= ~_interchangeable(self.template, self.linear, self.free, self.options.seed)
         problem = Problem(self.components, self.free, self.linear & self.free)
-        points = start_points(self.components, self.free, self.starts, self.seed)
+        points = start_points(self.components, self.free, self.options.starts, self.options.seed)
         self.say(f"{name}: {len(points)} starts")
         searches = run_rounds(problem, equations, points)
         if not searches:
@@ -134,22 +114,22 @@ class _Fit:
         agreeing = sum(same(s.cost, searches[0].cost, energy) for s in searches)
         numbers = self._finished(problem, distinct(searches, energy), few)
         used, scale = self.samples, math.inf
-        if self.robust is not None:
-            used = stratified(self.samples, self.loss, MOST, self.seed)
-            numbers, scale = refine(problem, Equations(self.template, used, self.loss), numbers, self.robust)
+        if self.options.robust is not None:
+            used = stratified(self.samples, self.loss, MOST, self.options.seed)
+            numbers, scale = refine(problem, Equations(self.template, used, self.loss), numbers, self.options.robust)
         return self._described(name, lobes, numbers, agreeing, begun, used, scale)
 
     def _finished(self, problem: Problem, candidates: list[Search], few: Samples) -> Array:
         """The best numbers on all samples."""
         joint = problem
-        if not self.loss.quadratic or self.metric == IMAGE:
+        if not self.loss.quadratic or self.options.metric == IMAGE:
             joint = replace(problem, linear=np.zeros_like(problem.linear))
             evaluate: Callable[[Array], Normal] = self._picture_equations() or Equations(self.template, few, self.loss)
             candidates = [begin(joint, evaluate, s.numbers) for s in candidates]
             for search in candidates:
                 advance(joint, evaluate, search, MOST_STEPS)
             candidates.sort(key=lambda s: s.cost)
-        if self.metric == IMAGE:
+        if self.options.metric == IMAGE:
             return candidates[0].numbers
         if len(few) < len(self.samples):
             self.say("polishing on all samples")
@@ -164,7 +144,7 @@ class _Fit:
     def _picture_equations(self) -> PictureEquations | None:
         return (
             PictureEquations(self.template, self.pictures)
-            if self.metric == IMAGE and self.pictures is not None
+            if self.options.metric == IMAGE and self.pictures is not None
             else None
         )
 
@@ -182,7 +162,7 @@ class _Fit:
         shared = max(int(self.free[list(active)].sum()) for active in rows_of(self.template, loss).active)
         enough = len(used) > shared
         sure = certainty(
-            self.components, numbers, self.free, *sandwich(made, used, loss, numbers, self.robust, scale),
+            self.components, numbers, self.free, *sandwich(made, used, loss, numbers, self.options.robust, scale),
             3 * len(used) if enough else 0,
         )  # fmt: skip
         states = [
@@ -197,10 +177,10 @@ class _Fit:
         count, determined = 3 * len(samples) // copies, shared if copies == 3 else int(self.free.sum())
         bic = count * np.log(max(2 * cost / copies, 1e-300) / count) + determined * np.log(count)
         return FitResult(
-            made, samples.name, name, lobes, self.metric, estimates, sure.correlation, sure.warnings,
+            made, samples.name, name, lobes, self.options.metric, estimates, sure.correlation, sure.warnings,
             errors_of(samples, fitted, self.pictures, made), residual_map(samples, fitted), cost, float(bic),
-            len(samples), samples.left_out, samples.grazing, self.starts, agreeing, self.seed,
-            time.perf_counter() - begun, self.robust or "",
+            len(samples), samples.left_out, samples.grazing, int(self.options.starts), agreeing, int(self.options.seed),
+            time.perf_counter() - begun, self.options.robust or "",
         )  # fmt: skip
 
 

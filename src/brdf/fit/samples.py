@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..color import rgb_weights
 from ..errors import ParameterError, ReflectanceError
 from ..formula.engine import check_lengths
-from ..geometry.directions import from_spherical
+from ..geometry.directions import pairs_from_spherical
 from ..metrics import direction_pairs
 from ..reflectance import Reflectance
 from ..representations.tables.merl import LAYOUT
@@ -57,8 +57,7 @@ class Samples:
         Rows with a value that is no number or below zero, without weight, or with a direction beyond `grazing` degrees
         are left out. Raises DirectionError, ParameterError for shapes that do not fit or when nothing is left.
         """
-        if not isinstance(grazing, (int, float, np.floating)) or not 0 < grazing <= 90:
-            raise ParameterError(f"the grazing angle must lie in (0, 90] degrees, got {grazing!r}")
+        require_grazing(grazing)
         wi, wo, values, weight = (_numbers(a) for a in (wi, wo, values, weight))
         if values.ndim == 1:
             values = np.repeat(values[:, None], 3, 1)
@@ -96,6 +95,12 @@ class Samples:
     def reweighted(self, weight: Array) -> Samples:
         """The same with other weights (N, 3)."""
         return replace(self, weight=weight)
+
+
+def require_grazing(angle: float) -> None:
+    """Raises ParameterError."""
+    if not isinstance(angle, (int, float, np.floating)) or not 0 < angle <= 90:
+        raise ParameterError(f"the grazing angle must lie in (0, 90] degrees, got {angle!r}")
 
 
 def samples_of(data: Any, grazing: float = GRAZING) -> Samples:
@@ -166,10 +171,9 @@ def _cells(theta: Array) -> Array:
 
 def from_rows(angles: Array, spectra: Array, wavelengths: Array, grazing: float, name: str, source: str) -> Samples:
     """From the rows of a goniometer: angles (N, 4) in radians and spectra (N, W) in 1/sr; each row counts the same."""
-    wi, wo = (from_spherical(angles[:, k], angles[:, k + 1]) for k in (0, 2))
     values = np.maximum(spectra @ rgb_weights(wavelengths), 0)  # of measured colours outside the gamut
     values[~(spectra >= 0).all(1)] = np.nan
-    return Samples.of(wi, wo, values, 1.0, grazing, name, source)
+    return Samples.of(*pairs_from_spherical(angles), values, 1.0, grazing, name, source)
 
 
 def _numbers(given: ArrayLike) -> Array:

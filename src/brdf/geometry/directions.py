@@ -41,6 +41,12 @@ def from_spherical(theta: ArrayLike, phi: ArrayLike) -> Floats:
     return np.stack([sine * np.cos(phi), sine * np.sin(phi), np.cos(theta)], axis=-1)
 
 
+def pairs_from_spherical(angles: ArrayLike) -> tuple[Floats, Floats]:
+    """`wi` and `wo` (N, 3) of rows (N, 4): theta and phi of the light, then of the viewer [rad]."""
+    theta_i, phi_i, theta_o, phi_o = _floats(angles).T
+    return from_spherical(theta_i, phi_i), from_spherical(theta_o, phi_o)
+
+
 def to_spherical(w: ArrayLike) -> tuple[Floats, Floats]:
     """Polar angle in [0, pi], azimuth in (-pi, pi] [rad], each (...), of vectors (..., 3) of any length."""
     w = _floats(w)

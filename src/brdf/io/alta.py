@@ -15,7 +15,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..color import xyz_to_rgb
 from ..container import replacing
 from ..errors import CorruptFileError
 from ..geometry.directions import from_half_difference, from_spherical
@@ -24,6 +23,7 @@ from ..representations.baking.bake import require_storable
 from ..representations.scattered import Scattered
 from .angles import goniometer_pairs
 from .registry import Format
+from .rows import measured_rgb
 from .text import Rows, lines, numbers
 
 Array = NDArray[np.floating[Any]]
@@ -87,7 +87,10 @@ def read(path: Path) -> Reflectance:
 
 
 def read_samples(path: Path) -> tuple[Array, Array, Array]:
-    """`wi`, `wo` (N, 3) and values (N, 3) in 1/sr, RGB, above the horizon. Raises CorruptFileError."""
+    """`wi`, `wo` (N, 3) and values (N, 3) in 1/sr, RGB, above the horizon; negative ones as they are.
+
+    Raises CorruptFileError.
+    """
     header = _header(path)
     kind = (header.get("PARAM_IN") or [""])[0]
     if header.get("FORMAT", ["text"])[0] != "text":
@@ -113,7 +116,7 @@ def read_samples(path: Path) -> tuple[Array, Array, Array]:
     wi, wo, values = wi[kept], wo[kept], values[kept]
     if output == "INV_STERADIAN_COSINE_FACTOR":
         values = values / wo[:, 2:]
-    rgb = xyz_to_rgb(values) if output == "XYZ_COLOR" else np.broadcast_to(values, (len(values), 3))
+    rgb = measured_rgb(values) if output == "XYZ_COLOR" else np.broadcast_to(values, (len(values), 3))
     return wi, wo, np.asarray(rgb, np.float64)
 
 

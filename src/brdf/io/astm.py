@@ -16,7 +16,6 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..color import xyz_to_rgb
 from ..container import replacing
 from ..errors import CorruptFileError
 from ..reflectance import Reflectance
@@ -25,7 +24,7 @@ from ..representations.baking.bake import require_storable
 from ..representations.scattered import Scattered
 from .angles import goniometer_pairs
 from .registry import Format
-from .rows import scattered
+from .rows import measured_rgb, scattered
 from .text import Rows, lines, numbers
 
 Array = NDArray[np.float64]
@@ -100,7 +99,7 @@ def _channels(path: Path, names: list[str], values: Array) -> tuple[Array | None
     if names == ["R", "G", "B"]:
         return None, values
     if names == ["X", "Y", "Z"]:
-        return None, np.asarray(xyz_to_rgb(values), np.float64)
+        return None, measured_rgb(values)
     found = [_WAVELENGTH.fullmatch(name) for name in names]
     if names and all(found):
         return np.array([float(match[1]) for match in found if match]), values

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..color import xyz_to_rgb
 from ..errors import CorruptFileError
-from ..geometry.directions import from_spherical
+from ..geometry.directions import pairs_from_spherical
 from ..representations.scattered import Scattered
 
 Array = NDArray[np.float64]
@@ -19,8 +21,13 @@ def scattered(path: Path, wavelengths: Array | None, angles: Array, values: Arra
 
     Raises CorruptFileError.
     """
-    wi, wo = (from_spherical(angles[:, k], angles[:, k + 1]) for k in (0, 2))
     try:
-        return Scattered.from_samples(wi, wo, values, wavelengths)
+        return Scattered.from_samples(*pairs_from_spherical(angles), values, wavelengths)
     except ValueError as error:
         raise CorruptFileError(path, f"{error}.") from None
+
+
+def measured_rgb(xyz: NDArray[np.floating[Any]]) -> Array:
+    """RGB (N, 3) of measured XYZ: colours out of gamut are clamped; rows with a negative value, a hole, stay."""
+    rgb = np.where(xyz.min(1, keepdims=True) >= 0, np.maximum(xyz_to_rgb(xyz), 0), xyz)
+    return rgb.astype(np.float64, copy=False)
