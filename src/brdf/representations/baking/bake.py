@@ -23,6 +23,10 @@ LEAST_COSINE = 1e-4
 """Directions closer to the horizon than this take no part: many models are unbounded there."""
 
 
+_MIRRORED = np.array([[0.0, 0.0, 1.0], [0.36, 0.48, 0.8]])
+"""Viewers whom a scale too large for single precision shows itself to, with the light opposite."""
+
+
 def require_isotropic(m: Reflectance) -> None:
     """Raises ReflectanceError for what a table over three angles cannot hold."""
     if not m.isotropic:
@@ -41,6 +45,7 @@ def require_values(m: Reflectance) -> None:
             f"{m.name or type(m).__name__} mirrors like a polished surface, which has no values a table could hold; "
             "give it a width (a GGX lobe) first"
         )
+    require_storable(m, m(_MIRRORED * [-1, -1, 1], _MIRRORED), "a table")
 
 
 def require_storable(m: Reflectance, values: Array, kind: str, below: float = 1e30) -> None:
@@ -49,8 +54,8 @@ def require_storable(m: Reflectance, values: Array, kind: str, below: float = 1e
     if not largest < below:
         found = f"reaches {largest:.3g} 1/sr" if np.isfinite(largest) else "is NaN or infinite in some directions"
         raise ReflectanceError(
-            f"{m.name or type(m).__name__} {found}, and {kind} holds values below {below:g} alone; give it a width or "
-            "write another format"
+            f"{m.name or type(m).__name__} {found}, and {kind} holds values below {below:g} alone; give it a "
+            "smaller scale or a width, or write another format"
         )
 
 
