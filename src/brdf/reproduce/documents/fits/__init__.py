@@ -6,7 +6,7 @@ Reference: Ngan2005.
 from __future__ import annotations
 
 from ...report import Report
-from . import measuring, tables
+from . import figures, measuring, tables
 from .settings import SETTINGS, Settings
 
 __all__ = ["SETTINGS", "SOURCE", "TITLE", "run"]
@@ -34,6 +34,7 @@ def run(report: Report, settings: Settings) -> None:
         "materials. Ours: the same model with the same parameters, fitted in the cosine-weighted L2 from its defaults.",
     )
     tables.errors(report, scores)
+    figures.sorted_errors(report, scores)
     report.section("Which model is nearest")
     tables.winners(report, scores)
     tables.materials(report, scores)

@@ -34,7 +34,7 @@ def errors(report: Report, scores: Sequence[Score]) -> None:
     columns += [Column(metric, "1", "#.3g", "paper") for metric in EVERY]
     columns += [Column(f"{METRIC}, same materials", "1", "#.3g", "paper"), Column("ours", "1", "#.3g", "ours")]
     rows: list[list[Cell]] = []
-    for fit in _fits(scores):
+    for fit in fits_of(scores):
         own = [s for s in scores if s.fit == fit]
         both = [s for s in own if s.ours is not None]
         pair: list[float | None] = [None, None]
@@ -56,7 +56,7 @@ def _winners(report: Report, name: str, title: str, scores: Sequence[Score]) -> 
     wins = {metric: Counter(_nearest(scores, metric, False).values()) for metric in EVERY}
     ours = {metric: Counter(_nearest(scores, metric, True).values()) for metric in (METRIC, AROUND)}
     rows: list[list[Cell]] = [
-        [fit, *(wins[metric][fit] for metric in EVERY), *(own[fit] for own in ours.values())] for fit in _fits(scores)
+        [fit, *(wins[metric][fit] for metric in EVERY), *(own[fit] for own in ours.values())] for fit in fits_of(scores)
     ]
     columns: list[Column | str] = ["fits", *(Column(metric, "1", "d", "paper") for metric in EVERY)]
     columns += [Column(f"our fits, {metric}", "1", "d", "ours") for metric in ours]
@@ -99,10 +99,10 @@ def materials(report: Report, scores: Sequence[Score]) -> None:
 
 def claims(report: Report, scores: Sequence[Score]) -> None:
     """Sentences of the abstract, and the promise of our own fits."""
-    half = [f for f in _fits(scores) if f.startswith("ngan_") and f != MIRROR]
+    half = [f for f in fits_of(scores) if f.startswith("ngan_") and f != MIRROR]
     checks = {}
     for name in ("published", "ours"):
-        medians = {f: float(np.median(errors)) for f in (*half, MIRROR) if (errors := _of(scores, f, name))}
+        medians = {f: float(np.median(errors)) for f in (*half, MIRROR) if (errors := errors_of(scores, f, name))}
         if MIRROR in medians:
             behind = sum(v < medians[MIRROR] for f, v in medians.items() if f != MIRROR)
             others = len(medians) - 1
@@ -117,11 +117,13 @@ def claims(report: Report, scores: Sequence[Score]) -> None:
         report.claim("compute the best approximation for each analytical model", {text: no_worse >= 0.99 * len(both)})
 
 
-def _fits(scores: Sequence[Score]) -> list[str]:
+def fits_of(scores: Sequence[Score]) -> list[str]:
+    """The published sets, by name."""
     return sorted({s.fit for s in scores})
 
 
-def _of(scores: Sequence[Score], fit: str, whose: str) -> list[float]:
+def errors_of(scores: Sequence[Score], fit: str, whose: str) -> list[float]:
+    """Of a set over its materials, in `METRIC`; `whose`: "published" or "ours"."""
     own = [s.published if whose == "published" else s.ours for s in scores if s.fit == fit]
     return [errors[METRIC] for errors in own if errors is not None]
 
