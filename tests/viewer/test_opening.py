@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 import threading
 import types
 import urllib.request
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,6 +20,7 @@ from brdf.errors import MissingExtraError, ParameterError, UnknownNameError
 from brdf.models import GGX, Lambertian
 from brdf.viewer import opening
 from brdf.viewer.payload import View
+from brdf.viewer.server import Server
 from brdf.viewer.widget import _widget_class
 
 if TYPE_CHECKING:
@@ -26,14 +29,23 @@ if TYPE_CHECKING:
 LIMIT = 60.0
 
 
+@contextlib.contextmanager
+def served(shown: list[Any], start: View | None = None) -> Iterator[Server]:
+    """The page of materials, on a sphere, while it is needed."""
+    server = opening.serve(shown, start or View(mesh="sphere"))
+    try:
+        yield server
+    finally:
+        server.stop()
+
+
 def got(address: str) -> bytes:
     with urllib.request.urlopen(address, timeout=LIMIT) as answer:
         return bytes(answer.read())
 
 
 def test_the_page_is_served_with_its_data_and_picture() -> None:
-    server = opening.serve([GGX(alpha=0.2), "Lambertian:albedo=.5"], View(mesh="sphere"))
-    try:
+    with served([GGX(alpha=0.2), "Lambertian:albedo=.5"]) as server:
         page = got(server.address).decode()
         assert "<title>GGX · Lambertian:albedo=.5</title>" in page
         assert 'id="payload"' not in page
@@ -43,22 +55,17 @@ def test_the_page_is_served_with_its_data_and_picture() -> None:
         assert about["title"] == "GGX · Lambertian:albedo=.5"
         assert about["comparison"] is None
         assert got(f"{server.address}picture").startswith(b"RIFF")
-    finally:
-        server.stop()
 
 
 def test_a_file_is_read_again_when_it_changes(tmp_path: Path) -> None:
     path = tmp_path / "m.safetensors"
     GGX(alpha=0.2).save(path)
-    server = opening.serve([path], View(mesh="sphere"))
-    try:
+    with served([path]) as server:
         assert parameters(got(f"{server.address}payload"))["alpha"] == 0.2
         GGX(alpha=0.7).save(path)
         while server.after(0) == 0:
             pass
         assert parameters(got(f"{server.address}payload"))["alpha"] == 0.7
-    finally:
-        server.stop()
 
 
 def parameters(payload: bytes) -> dict[str, float]:
@@ -157,38 +164,30 @@ def test_mistakes_are_found_before_anything_is_served() -> None:
 def test_an_open_page_follows_the_file(browser: Browser, tmp_path: Path) -> None:
     path = tmp_path / "m.safetensors"
     GGX(alpha=0.2, F0=(1, 0, 0)).save(path)
-    server = opening.serve([path], View(mesh="sphere", lights="directional:theta=40"))
-    try:
-        with opened(browser) as page:
-            page.open(server.address)
-            page.set(exposure=1.0)
-            page.until("location.hash.includes('exposure')")
-            red = page.picture().reshape(-1, 3).astype(float).mean(0)
-            GGX(alpha=0.2, F0=(0, 0, 1)).save(path)
-            page.until("viewer.slots.at(0).values.F0[2] === 1")
-            blue = page.picture().reshape(-1, 3).astype(float).mean(0)
-            assert red[0] > red[2]
-            assert blue[2] > blue[0]
-            assert page.state["exposure"] == 1  # what was chosen stays
-    finally:
-        server.stop()
+    with served([path], View(mesh="sphere", lights="directional:theta=40")) as server, opened(browser) as page:
+        page.open(server.address)
+        page.set(exposure=1.0)
+        page.until("location.hash.includes('exposure')")
+        red = page.picture().reshape(-1, 3).astype(float).mean(0)
+        GGX(alpha=0.2, F0=(0, 0, 1)).save(path)
+        page.until("viewer.slots.at(0).values.F0[2] === 1")
+        blue = page.picture().reshape(-1, 3).astype(float).mean(0)
+        assert red[0] > red[2]
+        assert blue[2] > blue[0]
+        assert page.state["exposure"] == 1  # what was chosen stays
 
 
 def test_changes_in_quick_succession_leave_one_viewer(browser: Browser, tmp_path: Path) -> None:
     path = tmp_path / "m.safetensors"
     GGX(alpha=0.2).save(path)
-    server = opening.serve([path], View(mesh="sphere"))
-    try:
-        with opened(browser) as page:
-            page.open(server.address)
-            for number in range(1, 5):
-                GGX(alpha=number / 10).save(path)
-                announce(server)
-            page.until("viewer.slots.at(0).values.alpha === 0.4")
-            page.page.locator("#picture").wait_for(state="detached")
-            assert page.page.locator("#viewer canvas").count() == page.page.locator("#viewer > *").count() == 1
-    finally:
-        server.stop()
+    with served([path]) as server, opened(browser) as page:
+        page.open(server.address)
+        for number in range(1, 5):
+            GGX(alpha=number / 10).save(path)
+            announce(server)
+        page.until("viewer.slots.at(0).values.alpha === 0.4")
+        page.page.locator("#picture").wait_for(state="detached")
+        assert page.page.locator("#viewer canvas").count() == page.page.locator("#viewer > *").count() == 1
 
 
 def announce(server: Any) -> None:
@@ -203,29 +202,24 @@ def announce(server: Any) -> None:
 def test_what_changes_before_the_page_listens_is_shown(browser: Browser, tmp_path: Path) -> None:
     path = tmp_path / "m.safetensors"
     GGX(alpha=0.2).save(path)
-    server = opening.serve([path], View(mesh="sphere"))
-    try:
-        with opened(browser) as page:
+    with served([path]) as server, opened(browser) as page:
 
-            def late(route: Any) -> None:
-                GGX(alpha=0.7).save(path)
-                while server.after(0) == 0:
-                    pass
-                route.continue_()
+        def late(route: Any) -> None:
+            GGX(alpha=0.7).save(path)
+            while server.after(0) == 0:
+                pass
+            route.continue_()
 
-            page.page.route("**/events", late)
-            page.open(server.address)
-            page.until("viewer.slots.at(0).values.alpha === 0.7")
-    finally:
-        server.stop()
+        page.page.route("**/events", late)
+        page.open(server.address)
+        page.until("viewer.slots.at(0).values.alpha === 0.7")
 
 
 def test_a_page_of_a_broken_file_says_so_and_recovers(browser: Browser, tmp_path: Path) -> None:
     path = tmp_path / "m.safetensors"
     GGX(alpha=0.2).save(path)
-    server = opening.serve([path], View(mesh="sphere"))
-    context = browser.new_context()
-    try:
+    with served([path]) as server:
+        context = browser.new_context()
         page = context.new_page()
         page.goto(server.address)
         whole = path.read_bytes()
@@ -239,9 +233,7 @@ def test_a_page_of_a_broken_file_says_so_and_recovers(browser: Browser, tmp_path
         path.write_bytes(whole)
         page.locator("#viewer canvas").wait_for()
         page.locator("#picture").wait_for(state="detached")
-    finally:
         context.close()
-        server.stop()
 
 
 def says(page: Page, text: str) -> None:
@@ -249,9 +241,8 @@ def says(page: Page, text: str) -> None:
 
 
 def test_without_scripts_or_webgl_there_is_a_picture(browser: Browser) -> None:
-    server = opening.serve([GGX()], View(mesh="sphere"))
     none = "HTMLCanvasElement.prototype.getContext = () => null"
-    try:
+    with served([GGX()]) as server:
         for options, script in (({"java_script_enabled": False}, ""), ({}, none)):
             context = browser.new_context(**options)  # type: ignore[arg-type]
             page = context.new_page()
@@ -261,8 +252,6 @@ def test_without_scripts_or_webgl_there_is_a_picture(browser: Browser) -> None:
             assert answer.value.ok
             page.locator("#picture img").wait_for()
             context.close()
-    finally:
-        server.stop()
 
 
 def test_what_is_followed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -287,15 +276,12 @@ def test_the_mesh_is_read_again(tmp_path: Path) -> None:
     path = tmp_path / "m.obj"
     corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n"
     path.write_text(corners, "utf-8")
-    server = opening.serve([GGX()], View(mesh=path, lights=iter(["directional:theta=40"])))
-    try:
+    with served([GGX()], View(mesh=path, lights=iter(["directional:theta=40"]))) as server:
         assert faces(got(f"{server.address}payload")) == 1
         path.write_text(corners + "f 1 2 4\n", "utf-8")
         while server.after(0) == 0:
             pass
         assert faces(got(f"{server.address}payload")) == 2
-    finally:
-        server.stop()
 
 
 def faces(payload: bytes) -> int:
