@@ -94,7 +94,7 @@ def save(path: str | os.PathLike[str], header: Mapping[str, Any], arrays: Mappin
 
 
 def load(path: str | os.PathLike[str]) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
-    """Header and arrays of a file written by `save`. Raises CorruptFileError when it is not one."""
+    """Header and arrays of a file written by `save`. Raises CorruptFileError when it is not one, FileError."""
     from safetensors import SafetensorError, safe_open
 
     try:
@@ -103,6 +103,8 @@ def load(path: str | os.PathLike[str]) -> tuple[dict[str, Any], dict[str, NDArra
             arrays = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118  (not a mapping)
     except SafetensorError as error:
         raise CorruptFileError(path, f"not a whole safetensors file ({error}).") from None
+    except OSError as error:
+        raise FileError(path, f"cannot be read ({error.strerror or error}).") from None
     try:
         header = json.loads(metadata["brdf"])
         schema = int(header["schema"])

@@ -38,6 +38,14 @@ def test_json_and_a_report(brdf: Command, tmp_path: Path) -> None:
     assert (tmp_path / found["file"]).is_file()
 
 
+def test_files_are_named_after_what_was_given(brdf: Command, tmp_path: Path) -> None:
+    package.load(TRUTH).save(tmp_path / "a.safetensors")
+    for lobes in ("1", "2"):
+        assert brdf("fit", "a.safetensors", "--model", "Ward", "--budget", "1", "--lobes", lobes).code == 0
+    made = {path.name for path in tmp_path.iterdir()}
+    assert made == {"a.safetensors", "a-Ward.safetensors", "a-Ward-2-lobes.safetensors"}
+
+
 def test_photographs_of_a_ball(brdf: Command, data: Path, tmp_path: Path) -> None:
     outcome = brdf("fit", data / "spheres" / "diligent_ball", "--model", "Ward", "--budget", "2", "--json")
     found = json.loads(outcome.out)
@@ -49,6 +57,8 @@ def test_mistakes(refused: Callable[..., str], tmp_path: Path) -> None:
     assert "did you mean 'Ward'" in refused("fit", TRUTH, "--model", "Wart")
     assert "--lobes must be 1 to 3 or auto, got 'many'" in refused("fit", TRUTH, "--model", "Ward", "--lobes", "many")
     assert "Missing option '--model'".lower() in refused("fit", TRUTH).lower()
+    (tmp_path / "folder").mkdir()
+    assert "folder: holds nothing to fit to" in refused("fit", "folder", "--model", "Ward")
     (tmp_path / "empty.binary").touch()
     assert "empty.binary" in refused("fit", "empty.binary", "--model", "Ward")
     assert "no such file" in refused("fit", "nowhere/x.binary", "--model", "Ward")
@@ -60,7 +70,7 @@ def test_mistakes(refused: Callable[..., str], tmp_path: Path) -> None:
         assert option.strip("-") in refused("fit", TRUTH, DATA, "--model", "Ward", option, wrong)
     for nothing in ("", ","):
         assert "no model is named" in refused("fit", TRUTH, "--model", nothing)
-    assert sorted(p.name for p in tmp_path.iterdir()) == ["empty.binary"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["empty.binary", "folder"]
 
 
 def test_several_make_a_folder_with_a_table_and_a_page(brdf: Command, tmp_path: Path) -> None:

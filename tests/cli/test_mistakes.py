@@ -303,6 +303,8 @@ def test_an_output_whose_name_is_too_long_is_named(refused: Refused, tmp_path: P
         (["bake", "GGX", "--as", "sphere-images", "--size", "1"], "texels wide, got 1"),
         (["bake", "GGX", "--as", "sphere-images", "--blend", "papr"], "did you mean 'paper'"),
         (["bake", "Mirror"], "mirrors like a polished surface"),
+        (["capture", "simulate", "leather", "--size", "8", "--seed", "-1"], "a seed is a whole number from 0 on"),
+        (["capture", "simulate", "leather", "--size", "-8"], "size must lie between 1 and"),
         (["bake", "1e300*Lambertian"], "a table holds values below 1e+30 alone"),
         (["convert", "1e300*Lambertian", "x.binary"], "a table holds values below 1e+30 alone"),
         (["convert", "1e300*Lambertian", "x.bsdf"], "a table holds values below 1e+30 alone"),

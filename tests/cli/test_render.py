@@ -10,6 +10,9 @@ import numpy as np
 import pytest
 from PIL import Image as Pictures
 
+import brdf as package
+from brdf.combinators import SpatiallyVarying
+from brdf.models import GGX
 from brdf.render.gl import card
 
 Command = Callable[..., Any]
@@ -62,3 +65,20 @@ def test_what_is_drawn_alone_is_said_once_it_is_drawn(brdf: Command, refused: Co
     outcome = brdf("render", "mirror", *size)
     assert outcome.code == 0
     assert "it is drawn alone" in outcome.err
+
+
+def test_pictures_are_named_after_what_was_given(brdf: Command, tmp_path: Path) -> None:
+    name, fit = "gold-metallic-paint", "gold-metallic-paint@ngan_ward"
+    package.load(name).save(tmp_path / "süß.safetensors")
+    for given in (name, fit, "süß.safetensors"):
+        assert brdf("render", given, *SMALL).code == 0
+    assert {path.name for path in tmp_path.glob("*.png")} == {f"{name}.png", f"{fit}.png", "süß.png"}
+
+
+def test_what_varies_is_drawn_alone(brdf: Command, tmp_path: Path) -> None:
+    spotted = SpatiallyVarying(GGX(alpha=0.3), alpha=np.array([[0.1, 0.5], [0.2, 0.3]]))
+    spotted.save(tmp_path / "spotted.safetensors")
+    outcome = brdf("render", "spotted.safetensors", *SMALL[1:])
+    assert "varies over the surface, which a slice stack cannot hold; it is drawn alone" in outcome.err
+    outcome = brdf("bake", "spotted.safetensors")
+    assert "its middle, uv = (0.5, 0.5), is compared, and is what tables hold" in outcome.err

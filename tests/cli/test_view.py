@@ -32,7 +32,7 @@ def test_mistakes_are_one_line(refused: Refused) -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
         assert f"port {port} cannot be used (Address already in use)" in refused("view", "GGX", "--port", port)
-    assert "a port lies between 1 and 65535, got -1" in refused("view", "GGX", "--port", -1)
+    assert "a port lies between 1 and 65535, or is 0 for any free one; got -1" in refused("view", "GGX", "--port", -1)
     assert "did you mean 'GGX'" in refused("view", "GXG")
     assert "unknown mesh 'teapott'" in refused("view", "GGX", "--mesh", "teapott")
     for exposure in ("nan", "inf", "1e9", "-101"):

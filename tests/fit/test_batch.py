@@ -237,6 +237,7 @@ def test_a_scheduler_that_does_not_answer_is_one_line(tmp_path: Path, monkeypatc
     monkeypatch.setattr(distributed, "Client", Kept)
     with pytest.raises(ParameterError, match="no Dask scheduler answers at nonsense"):
         fit_many(DATA, ["Ward"], tmp_path / "fits", scheduler="nonsense", **OPTIONS)
+    assert not (tmp_path / "fits").exists()
     # one left open would wait and complain at the interpreter's end
     assert [client.status for client in made] == ["closed"]
 

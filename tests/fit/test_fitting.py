@@ -284,6 +284,21 @@ def test_values_below_zero_in_rows_of_alta_text_are_left_out(tmp_path: Path) -> 
     np.testing.assert_array_equal(samples.values[:, 0], [0.5, 0.25])
 
 
+def test_copied_channels_err_alike_and_are_not_exchangeable() -> None:
+    r = brdf.fit(Lambertian(albedo=0.2) + GGX(alpha=0.3, F0=0.5), GGX, budget="quick")
+    named = [warning.split(" (")[0] for warning in r.warnings if "exchangeable" in warning]
+    assert named == [f"lobe2_scale_{c} and lobe2_base_F0_{c} are exchangeable" for c in "rgb"]
+
+
+def test_more_light_than_arrives_is_warned_of() -> None:
+    def warned(data: Any, model: Any) -> list[str]:
+        return [w for w in brdf.fit(data, model, budget="quick").warnings if "reflects more than it receives" in w]
+
+    assert warned(Lambertian(albedo=0.9), Lambertian) == []
+    (warning,) = warned(Lambertian(albedo=0.9) + GGX(alpha=0.1, F0=1.0), "Lambertian + GGX")
+    assert float(warning.split(", ")[1].split()[0]) == pytest.approx(1.9, abs=0.03)
+
+
 def test_the_result_is_saved_as_a_material(tmp_path: Path) -> None:
     r = brdf.fit(noisy(0), Ward, budget="quick")
     r.save(tmp_path / "x.safetensors")

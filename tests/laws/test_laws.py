@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 
+import brdf
 from brdf import Reflectance, laws, models
 from brdf.formula import Vec, floor
 from brdf.geometry.sampling import CosineSampler, GGXSampler
@@ -143,6 +144,11 @@ def test_a_breach_is_found(case: str) -> None:
     result = LAWS[name](reflectance)
     assert result.status == "breaks", result
     assert name == "sampling" or result.value > result.limit
+
+
+def test_the_darkest_texels_of_a_stack_lie_at_a_kink() -> None:
+    stack = brdf.SliceStack.bake(brdf.load("steel"))
+    assert LAWS["gradients"](stack).value < 1e-5
 
 
 def test_every_law_has_a_reflectance_that_breaks_it() -> None:

@@ -44,11 +44,16 @@ def test_huge_rates_survive() -> None:
 
 def test_provenance() -> None:
     m = materials.get("gold-metallic-paint@bagher_sgd")
-    assert m.name == "gold-metallic-paint"
+    assert m.name == "gold-metallic-paint@bagher_sgd"
+    assert materials.get("gold-metallic-paint").name == "gold-metallic-paint"
     assert m.source.startswith("bagher_sgd: ")
     assert "Bagher2012" in m.source
     assert "9807fb3" in m.source
-    assert repr(m) == repr(materials.get("gold-metallic-paint")) == repr(materials.get(m.name, "bagher_sgd"))
+    assert (
+        repr(m)
+        == repr(materials.get("gold-metallic-paint"))
+        == repr(materials.get("gold-metallic-paint", "bagher_sgd"))
+    )
     assert materials.published("bagher_sgd").model == type(m).__name__
     licence = resources.files("brdf.materials").joinpath("data/LICENSE.bbm").read_text("utf-8")
     assert "Pieter Peers" in licence
@@ -57,7 +62,7 @@ def test_provenance() -> None:
 @pytest.mark.parametrize("fit", catalogue._FITS)
 def test_every_fit_of_one_material(fit: str) -> None:
     m = materials.get(f"gold-metallic-paint@{fit}")
-    assert m.name == "gold-metallic-paint"
+    assert m.name == f"gold-metallic-paint@{fit}"
     assert m.source.startswith(f"{fit}: ")
     assert materials.published(fit).citation in m.source
     kinds = {type(part).__name__ for part in (m, *m.children.values())}

@@ -138,7 +138,7 @@ def test_the_same_figure_is_the_same_file(extension: str, tmp_path: Path) -> Non
 
 
 def test_bad_input(tmp_path: Path) -> None:
-    with pytest.raises(UnknownFormatError, match=r"figures are written as .*\.html, .*\.svg"):
+    with pytest.raises(UnknownFormatError, match=r"figures are written as \.png, \.svg, \.pdf or \.html"):
         plot.save(plot.cartesian(DIFFUSE), tmp_path / "x.xyz")
     assert not list(tmp_path.iterdir())
     with pytest.raises(ParameterError, match="a figure shows 1 to 6 materials, got 7"):

@@ -118,6 +118,16 @@ def test_caption_is_a_strip_below_with_the_words_in_it():
     assert made.metadata["Description"] == "a caption\nof two lines"
 
 
+@pytest.mark.parametrize("ground", [0.0, 0.1, 0.17, 0.4, 1.0])
+def test_labels_stand_out(ground):
+    image = Image(np.full((240, 320, 3), ground, np.float32), np.zeros((240, 320), np.float32))
+    made = captioned(image, "", ("left", "right"))
+    feet = made.pixels[200:240, :, 0]
+    darker, brighter = np.sort([ground, feet.flat[np.abs(feet - ground).argmax()]])
+    assert (brighter + 0.05) / (darker + 0.05) > 3
+    assert made.alpha[200:240].max() > 0.9  # letters are there where nothing else is
+
+
 def test_long_captions_are_broken():
     made = captioned(Image(np.zeros((120, 200, 3), np.float32)), "many words " * 8)
     assert made.height > 120 + 2 * 9 * 1.45

@@ -194,5 +194,5 @@ def test_stopping_ends_the_threads_and_open_streams(server: Server) -> None:
 def test_a_port_in_use_and_ports_that_are_none(server: Server) -> None:
     with pytest.raises(ParameterError, match=rf"port {server.port} cannot be used \(Address already in use\); choose"):
         Server(lambda: Contents("", bytes, bytes), port=server.port)
-    with pytest.raises(ParameterError, match="a port lies between 1 and 65535, got 70000"):
+    with pytest.raises(ParameterError, match="a port lies between 1 and 65535, or is 0 for any free one; got 70000"):
         Server(lambda: Contents("", bytes, bytes), port=70000)

@@ -51,6 +51,15 @@ def told_apart(named: list[Any], specs: Sequence[str]) -> list[Any]:
     return [copy.copy(m).named(spec) for m, spec in zip(named, specs, strict=True)]
 
 
+def remark_varying(m: Reflectance) -> None:
+    """Says what stands for a material that varies."""
+    if m.varies:
+        name = m.name or type(m).__name__
+        output.note(
+            f"{name} varies over the surface; its middle, uv = (0.5, 0.5), is compared, and is what tables hold"
+        )
+
+
 def parse_size(text: str) -> tuple[int, int]:
     """`800x600` -> (800, 600). Raises ParameterError."""
     match = re.fullmatch(r"\s*(\d{1,6})\s*[x×]\s*(\d{1,6})\s*", text)
@@ -59,12 +68,19 @@ def parse_size(text: str) -> tuple[int, int]:
     return int(match[1]), int(match[2])
 
 
-def file_name(m: Reflectance, extension: str) -> Path:
-    """A file in the current folder named after the reflectance."""
-    return named_file(m.name or type(m).__name__, extension)
+def file_name(spec: str, m: Any, ending: str) -> Path:
+    """A file in the current folder named after what was given."""
+    return named_file(given_name(spec, m), ending)
 
 
-def named_file(name: str, extension: str) -> Path:
+def given_name(spec: str, m: Any) -> str:
+    """A file's or folder's stem, else the name of what was made of the description."""
+    from ..loading import is_file
+
+    return Path(spec).resolve().stem if is_file(spec) else m.name or type(m).__name__
+
+
+def named_file(name: str, ending: str) -> Path:
     """A file in the current folder of that name, without what file systems or shells stumble over."""
-    stem = re.sub(r"[^A-Za-z0-9._@-]+", "-", name).strip("-.") or "material"
-    return Path(f"{stem[:80]}{extension}")
+    stem = re.sub(r"[^\w.@-]+", "-", name).strip("-.") or "material"
+    return Path(f"{stem[:80]}{ending}")

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..errors import FileError, ParameterError
-from . import output
+from . import arguments, output
 
 if TYPE_CHECKING:
     from ..export import Exported
@@ -94,6 +94,7 @@ def convert(
         return
 
     _require_place(m, out, representation)
+    arguments.remark_varying(m)
     place = Path(out)
     with output.working(f"writing {place.name}"):
         made = convert(m, out, representation, format, **options)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import inputs
-from ..errors import BrdfError
+from ..errors import BrdfError, FileError
 from . import output
 
 if TYPE_CHECKING:
@@ -64,10 +64,16 @@ def fit_folder(
 def read_data(spec: str, grazing: float) -> Data:
     """A material, or photographs of a ball: a folder with a list of lights."""
     from ..fit import Data, data_of
+    from ..io.sphere_images import FOLDER_FILE
+    from ..loading import is_file
 
-    if Path(spec).is_dir() and any(Path(spec).glob("light*.txt")):
+    place = Path(spec)
+    if is_file(spec) and place.is_dir() and not (place / FOLDER_FILE).exists():
         from ..capture import sphere_samples
 
+        if not any(place.glob("light*.txt")):
+            lacking = f"photographs of a ball need light_directions.txt or lights.txt, other folders {FOLDER_FILE}"
+            raise FileError(spec, f"holds nothing to fit to: {lacking}.")
         return Data(sphere_samples(spec, grazing=grazing), None)
     return data_of(spec, grazing)
 

@@ -120,19 +120,23 @@ def fit_many(
     _require(models, Options(**options))
     folder = Path(folder)
     tasks = _tasks(data, models, options)
-    _prepare(folder)
+    is_new = _prepare(folder)
     finished = {task.key: found for task in tasks if (found := _finished(folder, task)) is not None}
     kept, failures = len(finished), dict[str, str]()
     progress(len(finished), len(tasks), "")
     waiting = [task for task in tasks if task.key not in finished]
-    for task, outcome in outcomes(
-        functools.partial(make, read=read), waiting, jobs, scheduler, max(1, cores() // jobs)
-    ):
-        if isinstance(outcome, Done):
-            finished[task.key] = _keep(folder, task, outcome)
-        else:
-            failures[task.key] = outcome
-        progress(len(finished) + len(failures), len(tasks), task.key)
+    try:
+        for task, outcome in outcomes(
+            functools.partial(make, read=read), waiting, jobs, scheduler, max(1, cores() // jobs)
+        ):
+            if isinstance(outcome, Done):
+                finished[task.key] = _keep(folder, task, outcome)
+            else:
+                failures[task.key] = outcome
+            progress(len(finished) + len(failures), len(tasks), task.key)
+    finally:
+        if is_new and not finished:
+            folder.rmdir()
     return Batch(
         folder,
         [finished[task.key] for task in tasks if task.key in finished],
@@ -217,10 +221,14 @@ def _content(path: str | Path) -> str:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
-def _prepare(folder: Path) -> None:
-    """Make the folder, or see that it can be written and is one of fits: a page and a table in it are replaced."""
+def _prepare(folder: Path) -> bool:
+    """Make the folder, or see that it can be written and is one of fits: a page and a table in it are replaced.
+
+    Whether it was made.
+    """
     if folder.exists() and not folder.is_dir():
         raise FileError(folder, "is a file; give a folder for the fits with -o.")
+    is_new = not folder.exists()
     try:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
@@ -231,6 +239,7 @@ def _prepare(folder: Path) -> None:
         raise FileError(folder, problem) from None
     if names and not any(map(_FIT.fullmatch, names)):
         raise FileError(folder, f"holds other files ({min(names)}) and no fit; give a new or an empty folder with -o.")
+    return is_new
 
 
 def _finished(folder: Path, task: Task) -> dict[str, Any] | None:

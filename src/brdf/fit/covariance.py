@@ -99,13 +99,13 @@ def certainty(
     unseen = np.isinf(errors) & ~np.isin(np.arange(len(numbers)), known)
     warnings += [f"{components[k].name} is not determined by the data" for k in np.flatnonzero(unseen)]
     if len(known):
-        warnings += _warnings([components[k] for k in known], numbers[known], errors[known], correlation, known)
+        common = np.where(hessian != 0, correlation, 0)[np.ix_(known, known)]
+        warnings += _warnings([components[k] for k in known], numbers[known], errors[known], common)
     return Certainty(errors, correlation, tuple(warnings))
 
 
-def _warnings(
-    some: list[Component], numbers: Array, errors: Array, correlation: Array, known: NDArray[np.intp]
-) -> list[str]:
+def _warnings(some: list[Component], numbers: Array, errors: Array, correlation: Array) -> list[str]:
+    """`correlation`: 0 where two numbers act on no common channel: those of copied channels err alike, no more."""
     found = []
     for c, value, error in zip(some, numbers, errors, strict=True):
         if np.isinf(error):
@@ -114,7 +114,7 @@ def _warnings(
             found.append(f"{c.name} is hardly determined: {value:.3g} ± {error:.2g}")
     for a in range(len(some)):
         for b in range(a):
-            r = correlation[known[a], known[b]]
+            r = correlation[a, b]
             if abs(r) > CORRELATED and np.isfinite(errors[[a, b]]).all():
                 found.append(f"{some[b].name} and {some[a].name} are exchangeable (correlation {r:+.3f})")
     return found

@@ -16,6 +16,7 @@ from ..metrics import direction_pairs
 from ..reflectance import Reflectance
 from .covariance import certainty, sandwich
 from .data import Data, data_of
+from .energy import gains
 from .equations import Equations, Normal, rows_of
 from .levenberg import Problem, Search, advance, begin
 from .losses import LOSSES, Loss, loss_named
@@ -177,7 +178,8 @@ class _Fit:
         count, determined = 3 * len(samples) // copies, shared if copies == 3 else int(self.free.sum())
         bic = count * np.log(max(2 * cost / copies, 1e-300) / count) + determined * np.log(count)
         return FitResult(
-            made, samples.name, name, lobes, self.options.metric, estimates, sure.correlation, sure.warnings,
+            made, samples.name, name, lobes, self.options.metric, estimates, sure.correlation,
+            sure.warnings + gains(made),
             errors_of(samples, fitted, self.pictures, made), residual_map(samples, fitted), cost, float(bic),
             len(samples), samples.left_out, samples.grazing, int(self.options.starts), agreeing, int(self.options.seed),
             time.perf_counter() - begun, self.options.robust or "",

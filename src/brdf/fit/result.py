@@ -79,7 +79,7 @@ class FitResult:
     def table(self) -> str:
         """Parameters, metrics and warnings as text."""
         width = max(len(e.name) for e in self.parameters)
-        lines = [f"{self.data} fitted by {self.model}, {self.metric}"]
+        lines = [f"{self.data or 'data'} fitted by {self.model}, {self.metric}"]
         lines += [f"  {name:{width}}  {value:>12}  {error}" for name, value, error in self.rows()]
         lines += [f"  {name:{width}}  {value:12.5g}" for name, value in self.errors.items()]
         return "\n".join([*lines, *(f"  ! {warning}" for warning in self.warnings)])

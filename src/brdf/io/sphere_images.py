@@ -54,7 +54,9 @@ def write(reflectance: Reflectance, path: Path) -> None:
     """
     if not isinstance(reflectance, SphereImages):
         name = reflectance.name or type(reflectance).__name__
-        raise ReflectanceError(f"{name} is no set of sphere pictures; make one with brdf.SphereImages.bake first")
+        raise ReflectanceError(
+            f"{name} is no set of sphere pictures; make one first with `brdf bake --as sphere-images`"
+        )
     as_sheet = path.suffix.lower() in SHEET_TYPES and not path.is_dir()
     (_write_sheet if as_sheet else _write_folder)(reflectance, path)
 

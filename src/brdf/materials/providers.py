@@ -41,10 +41,13 @@ def fits(name: str) -> list[str]:
 def get(name: str, fit: str | None = None) -> Reflectance:
     """A material by name; a particular fit as `NAME@FIT` or by `fit`, else the preferred one.
 
-    Its `name` is the material's, its `source` tells where it comes from. Raises UnknownNameError.
+    Its `name` is the material's, with `@FIT` where one was asked for; its `source` tells where it comes from. Raises
+    UnknownNameError.
     """
     name, at, after = name.partition("@")
-    return _provider(name).get(name, after if at else fit)
+    wanted = after if at else fit
+    made = _provider(name).get(name, wanted)
+    return made if wanted is None else made.named(f"{name}@{wanted}")
 
 
 def _provider(name: str) -> Provider:

@@ -98,10 +98,10 @@ def figure_format(path: str | os.PathLike[str]) -> str:
     """The format of a figure's file, by its extension. Raises UnknownFormatError."""
     from matplotlib.backend_bases import FigureCanvasBase
 
-    known = sorted([*FigureCanvasBase.get_supported_filetypes(), "html"])
+    known = {*FigureCanvasBase.get_supported_filetypes(), "html"}
     kind = Path(path).suffix.lower()[1:]
     if kind not in known:
-        raise UnknownFormatError(path, f"figures are written as {', '.join('.' + k for k in known)}; choose one.")
+        raise UnknownFormatError(path, "figures are written as .png, .svg, .pdf or .html; choose one of them.")
     return kind
 
 

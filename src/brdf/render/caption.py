@@ -11,10 +11,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..color import LUMINANCE
 from .image import Image
 
 PAPER, INK = 0.012, 0.75
 """Radiance of the strip and of the letters on it."""
+BRIGHT = 0.17
+"""Luminance from which on letters stand out more in the strip's colour than in their own."""
 
 
 def captioned(image: Image, caption: str, labels: tuple[str, str] | None = None) -> Image:
@@ -30,14 +33,16 @@ def captioned(image: Image, caption: str, labels: tuple[str, str] | None = None)
     for number, line in enumerate(lines):
         middle = round(font.size * 0.45) + step * number + step / 2
         _write(strip, line, font, (image.width / 2, middle), "mm")
-    pixels = image.pixels.copy()
+    pixels, alpha = image.pixels.copy(), image.alpha
     if labels is not None:
         font = _fitting(labels, size, image.width * 0.45)
         for label, across, anchor in ((labels[0], 0.02, "ls"), (labels[1], 0.98, "rs")):
             ink = _letters(pixels.shape[:2], label, font, (image.width * across, image.height * 0.97), anchor)
-            pixels += ink[..., None] * (INK - pixels)
+            around = float((pixels @ LUMINANCE * ink).sum() / max(ink.sum(), 1e-6))
+            pixels += ink[..., None] * ((INK if around < BRIGHT else PAPER) - pixels)
+            alpha = None if alpha is None else alpha + ink * (1 - alpha)
     below = np.repeat(strip[..., None], 3, -1)
-    alpha = None if image.alpha is None else np.concatenate([image.alpha, np.ones_like(strip)])
+    alpha = None if alpha is None else np.concatenate([alpha, np.ones_like(strip)])
     return replace(
         image,
         pixels=np.concatenate([pixels, below]),

@@ -142,7 +142,7 @@ class _HTTPServer(ThreadingHTTPServer):
 
 def _listening(port: int, owner: Server) -> _HTTPServer:
     if not 0 <= port <= 65535:
-        raise ParameterError(f"a port lies between 1 and 65535, got {port}")
+        raise ParameterError(f"a port lies between 1 and 65535, or is 0 for any free one; got {port}")
     try:
         server = _HTTPServer((HOST, port), _Handler)
     except OSError as error:

@@ -21,8 +21,9 @@ class Cutter:
     """
 
     def __init__(self, shape: tuple[int, int], corners: Array | None, crop: int, size: int) -> None:
-        if min(crop, size) < 1:
-            raise ParameterError(f"crop and size must be at least 1 pixel, got {crop} and {size}")
+        for name, pixels in (("crop", crop), ("size", size)):
+            if pixels < 1:
+                raise ParameterError(f"{name} must be at least 1 pixel, got {pixels}")
         self._places: Array | None = None
         if corners is None:
             rows, columns = (min(crop, extent) for extent in shape)

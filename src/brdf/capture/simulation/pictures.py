@@ -37,9 +37,11 @@ def names() -> list[str]:
 
 
 def micro_surface(material: str, texels: int = 1024, seed: int = 0) -> MicroSurface:
-    """The relief and the reflectances of a simulated material. Raises UnknownNameError."""
+    """The relief and the reflectances of a simulated material. Raises UnknownNameError, ParameterError."""
     if material not in REGISTRY:
         raise UnknownNameError("simulated material", material, REGISTRY)
+    if seed < 0:
+        raise ParameterError(f"a seed is a whole number from 0 on, got {seed}")
     return REGISTRY[material](texels, np.random.default_rng(seed))
 
 

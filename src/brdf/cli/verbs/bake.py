@@ -45,4 +45,4 @@ def command(
     options = given(budget=budget, anisotropic=anisotropic, angles=angles, size=size, blend=blend, storage=storage)
     m = arguments.load(material)
     chosen = representation_for(representation, options)
-    convert(m, out or str(arguments.file_name(m, f"-{chosen}.safetensors")), chosen, options, json)
+    convert(m, out or str(arguments.file_name(material, m, f"-{chosen}.safetensors")), chosen, options, json)

@@ -51,7 +51,7 @@ def command(
         m, *others = arguments.load_all([reference, *materials])
     for one in (m, *others):
         _remark(one)
-    path = None if no_figure else out or arguments.file_name(m, "-compared.png")
+    path = None if no_figure else out or arguments.file_name(reference, m, "-compared.png")
     if path is not None:
         output.require_writable(path)
     with output.working("comparing"):
@@ -72,8 +72,7 @@ def _remark(m: Reflectance) -> None:
         output.note(f"{m.name} mirrors like a polished surface; that part counts in the albedo alone")
     if m.transmits:
         output.note(f"{m.name} transmits; what it reflects is compared")
-    if m.varies:
-        output.note(f"{m.name} varies over the surface; its middle, uv = (0.5, 0.5), is compared")
+    arguments.remark_varying(m)
 
 
 def _draw(ranked: list[Comparison], path: Path) -> None:

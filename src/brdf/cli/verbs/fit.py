@@ -114,7 +114,8 @@ def _fit_one(
         figure_format(report)
     with output.working(f"reading {Path(spec).name}") as say:
         data = read_data(spec, grazing)
-        path = out or arguments.named_file(f"{data.samples.name}-{model}", ".safetensors")
+        lobes = "" if options["lobes"] == 1 else f"-{options['lobes']}-lobes"
+        path = out or arguments.named_file(f"{arguments.given_name(spec, data.samples)}-{model}{lobes}", ".safetensors")
         for place in filter(None, (path, report)):
             output.require_writable(place)
         result: FitResult = fit(data, model, say=say, **options)

@@ -42,8 +42,8 @@ def command(
     """Render a material.
 
     Left half: the material. Right half: its 16 KB slice stack, or what --compare names. Below: what the right one
-    costs and how far it is from the left one. What no slice stack can hold (anisotropic materials) is drawn alone, and
-    so is a table that is that small already.
+    costs and how far it is from the left one. What no slice stack can hold (anisotropic materials, those that vary
+    over the surface) is drawn alone, and so is a table that is that small already.
 
     \b
     Examples:
@@ -59,7 +59,7 @@ def command(
         raise ParameterError("--compare and --no-compare exclude each other; give one of them")
     pixels = arguments.parse_size(size)
     m = arguments.load(material)
-    path = out or arguments.file_name(m, ".png")
+    path = out or arguments.file_name(material, m, ".png")
     _require_picture(path)
     other: Reflectance | None = None
     label = ""
@@ -102,8 +102,12 @@ def _stack(m: Reflectance) -> tuple[Reflectance | None, str]:
     from ...representations.baking.slice_stack import SliceStack
     from ...representations.tables.table import Table
 
-    if not m.isotropic or m.transmits or m.has_delta:
-        kind = "transmits" if m.transmits else "mirrors" if m.has_delta else "is anisotropic"
+    kinds = {
+        "transmits": m.transmits, "mirrors": m.has_delta, "varies over the surface": m.varies,
+        "is anisotropic": not m.isotropic,
+    }  # fmt: skip
+    if any(kinds.values()):
+        kind = next(name for name, applies in kinds.items() if applies)
         return None, f"{m.name or type(m).__name__} {kind}, which a slice stack cannot hold; it is drawn alone"
     if isinstance(m, Table) and m.layout in SliceStack.layouts():
         return None, ""

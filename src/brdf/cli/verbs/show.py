@@ -74,7 +74,7 @@ def command(
     drawn = arguments.told_apart(drawn, materials)
     if len(drawn) > 1 and what in SINGLE:
         raise ParameterError(f"--what {what} shows one material, {len(drawn)} were given")
-    path = out or arguments.file_name(drawn[0], "-figure.png")
+    path = out or arguments.file_name(materials[0], drawn[0], "-figure.png")
     output.require_writable(path)
     with output.working("drawing"):
         save(_figure(drawn, what, any(profiles)), path)

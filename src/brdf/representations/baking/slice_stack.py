@@ -131,7 +131,8 @@ class SliceStack:
             raise ParameterError("a stack with an azimuth is folded by the symmetries it finds; leave `fold` out")
         if not m.isotropic and not anisotropic:
             raise ReflectanceError(
-                f"{m.name or type(m).__name__} is anisotropic; bake it with anisotropic=True, which adds an axis"
+                f"{m.name or type(m).__name__} is anisotropic; bake it as such (anisotropic=True, --anisotropic), with "
+                "one more axis"
             )
         if anisotropic:
             return _baked(m, _anisotropic_layout(m, size), method)
