@@ -117,3 +117,7 @@ def test_nonsense_is_refused_by_an_error_of_ours(spec: str, error: type[BrdfErro
     with pytest.raises(error) as caught:
         brdf.load(spec)
     assert "\n" not in str(caught.value)
+
+
+def test_a_choice_may_be_named_in_digits():
+    assert brdf.load("Disney:masking=2014").choices == brdf.models.Disney(masking="2014").choices

@@ -17,9 +17,11 @@ from brdf.errors import BrdfError, ParameterError, ReflectanceError, UnknownName
 from brdf.fit import LOSSES, Samples, data_of, samples_of
 from brdf.fit.losses import LOSSES as SCALES
 from brdf.fit.multistart import stratified
+from brdf.fit.pictures import pixels
+from brdf.fit.robust import rho
 from brdf.fit.samples import from_rows
 from brdf.fit.template import template_of
-from brdf.metrics import METRICS
+from brdf.metrics import METRICS, direction_pairs
 from brdf.models import GGX, BlinnPhong, Lambertian, OpenPBR, SmoothDielectric, Ward
 from helpers import random_directions
 
@@ -282,6 +284,54 @@ def test_values_below_zero_in_rows_of_alta_text_are_left_out(tmp_path: Path) -> 
     samples, _ = data_of(path)
     assert (len(samples), samples.left_out) == (2, 1)
     np.testing.assert_array_equal(samples.values[:, 0], [0.5, 0.25])
+
+
+def test_the_image_metric_is_what_an_image_fit_is_judged_by() -> None:
+    r = brdf.fit(brdf.load("chrome"), "Ward", metric="image", budget="quick")
+    l2 = brdf.fit(brdf.load("chrome"), "Ward", budget="quick")
+    assert r.errors["image"] < l2.errors["image"]
+    assert r.cost == pytest.approx(1.5 * r.errors["image"] ** 2 * len(pixels().weight), rel=1e-3)
+    count = 3 * len(pixels().weight)
+    free = sum(e.state != "held" for e in r.parameters)
+    assert r.bic == pytest.approx(count * math.log(r.errors["image"] ** 2) + free * math.log(count), rel=1e-3)
+
+
+def test_errors_of_an_image_fit_are_those_of_its_pixels() -> None:
+    truth = Lambertian(albedo=(0.2, 0.3, 0.1)) + Ward(ks=0.3, alpha=0.2)
+    r = brdf.fit(truth, "Lambertian + Ward", metric="image", budget="quick")
+    assert max(e.error / e.value for e in r.parameters) < 1e-4  # nothing is left over
+
+
+@pytest.mark.parametrize("robust", ["soft_l1", "huber", "cauchy"])
+def test_a_robust_loss_pulls_as_its_derivatives_say(robust: str) -> None:
+    z = np.array([0.0, 0.3, 0.9, 1.2, 5.0, 40.0])
+    at, first, second = rho(robust, z)
+    step = 1e-6
+    np.testing.assert_allclose((rho(robust, z + step)[0] - at) / step, first, rtol=1e-4)
+    np.testing.assert_allclose((rho(robust, z + step)[1] - first) / step, second, rtol=1e-3, atol=1e-6)
+
+
+def test_a_robust_fit_of_some_samples_is_that_of_all(monkeypatch: pytest.MonkeyPatch) -> None:
+    wi, wo, weight = direction_pairs(24, 16, 20)
+    rng = np.random.default_rng(0)
+    values = (Lambertian(albedo=(0.2, 0.1, 0.3)) + Ward(ks=0.3, alpha=0.2))(wi, wo)
+    values = values * (1 + 0.05 * rng.standard_normal(values.shape)) * np.where(rng.random((len(wi), 1)) < 0.1, 2, 1)
+    some = Samples.of(wi, wo, values, weight)
+    whole = brdf.fit(some, Ward, robust="huber", budget="quick")
+    monkeypatch.setattr("brdf.fit.fitting.MOST", len(some) // 2)
+    part = brdf.fit(some, Ward, robust="huber", budget="quick")
+    for a, b in zip(whole.parameters, part.parameters, strict=True):
+        assert abs(a.value - b.value) < 4 * a.error, a.name
+
+
+def test_a_bound_below_zero_is_one() -> None:
+    r = brdf.fit(brdf.models.LommelSeeliger(g=-0.95), brdf.models.LommelSeeliger, budget="quick")
+    assert {e.name: e.state for e in r.parameters}["g"] == "at bound"
+
+
+def test_a_single_wavelength_is_one_measurement() -> None:
+    angles = np.random.default_rng(0).uniform(0, 1, (30, 4))
+    assert from_rows(angles, np.linspace(0.1, 1, 30)[:, None], np.array([550.0]), 80.0, "x", "y").is_monochrome
 
 
 def test_copied_channels_err_alike_and_are_not_exchangeable() -> None:

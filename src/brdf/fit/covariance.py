@@ -50,7 +50,7 @@ def sandwich(
     """
     cosine = samples.wi[:, 2:]
     residual = loss.scale(np.asarray(m(samples.wi, samples.wo)) * cosine) - loss.scale(samples.values * cosine)
-    residual = np.sqrt(samples.weight, dtype=np.float64) * residual
+    weighted = np.sqrt(samples.weight, dtype=np.float64) * residual
 
     def equations(factor: Array | float) -> Equations:
         return Equations(m, samples.reweighted(samples.weight * factor), loss, "float64")
@@ -61,7 +61,7 @@ def sandwich(
         curvature = curvature - equations(np.maximum(-slope, 0))(numbers).hessian
     if samples.is_monochrome:
         return curvature, equations(pull).scores(numbers)
-    return curvature, equations(np.square(residual * pull))(numbers).hessian
+    return curvature, equations(np.square(weighted * pull))(numbers).hessian
 
 
 def certainty(
@@ -74,8 +74,9 @@ def certainty(
     measurements are not. References: White1980.
     """
     low, high = (np.array([getattr(c, side) for c in components]) for side in ("low", "high"))
-    lowest = np.array([c.lowest for c in components])
-    at_bound = free & ((numbers <= np.maximum(low, lowest) * (1 + 1e-9)) | (numbers >= high * (1 - 1e-9)))
+    least = np.maximum(low, [c.lowest for c in components])
+    at_bound = free & (np.isclose(numbers, least, 1e-9, 0) | np.isclose(numbers, high, 1e-9, 0))
+    at_bound |= free & ((numbers < least) | (numbers > high))
     effect = np.diag(hessian) * np.maximum(np.abs(numbers), 1e-3) ** 2
     known = np.flatnonzero(free & ~at_bound & (effect > SILENT * effect.max()))
     errors = np.full(len(numbers), np.nan)

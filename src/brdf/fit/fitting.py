@@ -94,7 +94,8 @@ class _Fit:
             raise ReflectanceError(f"{template.name} has no formula of reflection, or mirrors: a fit needs values")
         self.template, self.samples, self.pictures = template, samples, pictures
         self.options, self.say = options, say
-        self.loss: Loss = loss_named("l2" if options.metric == IMAGE else options.metric)
+        self.image = PictureEquations(template, pictures) if options.metric == IMAGE and pictures is not None else None
+        self.loss: Loss = loss_named("l2" if self.image else options.metric)
         self.components = components(template)
         self.free = _free(self.components, options.fixed)
         self.linear = np.array([c.is_linear for c in self.components])
@@ -117,20 +118,21 @@ class _Fit:
         used, scale = self.samples, math.inf
         if self.options.robust is not None:
             used = stratified(self.samples, self.loss, MOST, self.options.seed)
-            numbers, scale = refine(problem, Equations(self.template, used, self.loss), numbers, self.options.robust)
+            plain = Equations(self.template, used.reweighted(np.ones_like(used.weight)), self.loss)
+            numbers, scale = refine(problem, plain, used.weight.astype(np.float64), numbers, self.options.robust)
         return self._described(name, lobes, numbers, agreeing, begun, used, scale)
 
     def _finished(self, problem: Problem, candidates: list[Search], few: Samples) -> Array:
         """The best numbers on all samples."""
         joint = problem
-        if not self.loss.quadratic or self.options.metric == IMAGE:
+        if not self.loss.quadratic or self.image:
             joint = replace(problem, linear=np.zeros_like(problem.linear))
-            evaluate: Callable[[Array], Normal] = self._picture_equations() or Equations(self.template, few, self.loss)
+            evaluate: Callable[[Array], Normal] = self.image or Equations(self.template, few, self.loss)
             candidates = [begin(joint, evaluate, s.numbers) for s in candidates]
             for search in candidates:
                 advance(joint, evaluate, search, MOST_STEPS)
             candidates.sort(key=lambda s: s.cost)
-        if self.options.metric == IMAGE:
+        if self.image:
             return candidates[0].numbers
         if len(few) < len(self.samples):
             self.say("polishing on all samples")
@@ -142,13 +144,6 @@ class _Fit:
             best = advance(joint, exact, begin(joint, exact, best.numbers), MOST_STEPS, 1e-12)
         return best.numbers
 
-    def _picture_equations(self) -> PictureEquations | None:
-        return (
-            PictureEquations(self.template, self.pictures)
-            if self.options.metric == IMAGE and self.pictures is not None
-            else None
-        )
-
     def _described(
         self, name: str, lobes: int, numbers: Array, agreeing: int, begun: float, used: Samples, scale: float
     ) -> FitResult:
@@ -157,15 +152,15 @@ class _Fit:
         samples, loss = self.samples, self.loss
         made.named(f"{samples.name} by {name}" if samples.name else name, f"fitted to {samples.source or samples.name}")
         fitted = np.asarray(made(samples.wi, samples.wo))
-        cosine = samples.wi[:, 2:]
-        residual = loss.scale(fitted * cosine) - loss.scale(samples.values * cosine)
-        cost = 0.5 * float(np.sum(samples.weight * np.square(residual), dtype=np.float64))
+        cost, count = self._cost(numbers, fitted)
         shared = max(int(self.free[list(active)].sum()) for active in rows_of(self.template, loss).active)
-        enough = len(used) > shared
-        sure = certainty(
-            self.components, numbers, self.free, *sandwich(made, used, loss, numbers, self.options.robust, scale),
-            3 * len(used) if enough else 0,
-        )  # fmt: skip
+        residuals = self.image.size if self.image else 3 * len(used)
+        both = (
+            self.image.sandwich(numbers, samples.is_monochrome)
+            if self.image
+            else sandwich(made, used, loss, numbers, self.options.robust, scale)
+        )
+        sure = certainty(self.components, numbers, self.free, *both, residuals if residuals > 3 * shared else 0)
         states = [
             "held" if not free else "at bound" if np.isnan(error) else "free"
             for free, error in zip(self.free, sure.errors, strict=True)
@@ -175,7 +170,7 @@ class _Fit:
             for c, v, e, state in zip(self.components, numbers, sure.errors, states, strict=True)
         )
         copies = 3 if samples.is_monochrome else 1
-        count, determined = 3 * len(samples) // copies, shared if copies == 3 else int(self.free.sum())
+        count, determined = count // copies, shared if copies == 3 else int(self.free.sum())
         bic = count * np.log(max(2 * cost / copies, 1e-300) / count) + determined * np.log(count)
         return FitResult(
             made, samples.name, name, lobes, self.options.metric, estimates, sure.correlation,
@@ -184,6 +179,14 @@ class _Fit:
             len(samples), samples.left_out, samples.grazing, int(self.options.starts), agreeing, int(self.options.seed),
             time.perf_counter() - begun, self.options.robust or "",
         )  # fmt: skip
+
+    def _cost(self, numbers: Array, fitted: Array) -> tuple[float, int]:
+        """Half the weighted sum of squared residuals of what was made small, and how many there are."""
+        if self.image:
+            return self.image(numbers).cost, self.image.size
+        cosine = self.samples.wi[:, 2:]
+        residual = self.loss.scale(fitted * cosine) - self.loss.scale(self.samples.values * cosine)
+        return 0.5 * float(np.sum(self.samples.weight * np.square(residual), dtype=np.float64)), residual.size
 
 
 def _free(all_components: list[Component], fixed: Iterable[str]) -> NDArray[np.bool_]:

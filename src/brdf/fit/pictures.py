@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import math
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -109,29 +110,46 @@ def _compressed(radiance: Array) -> Array:
 
 
 class PictureEquations:
-    """As `Equations`, for the pixels of pictures."""
+    """As `Equations`, for the pixels of pictures; their weights have mean 1."""
 
     def __init__(self, m: Reflectance, reference: Array) -> None:
         """`reference`: radiances (M, 3)."""
         p = pixels()
-        self._target = _compressed(reference)
+        self._target, self._root_weight = _compressed(reference), np.sqrt(p.weight * len(p.weight))
         self._parameters = sum(np.size(v) for v in m.values.values())
         nothing = np.zeros(p.wi.shape)
         self._values = Equations(m, Samples(p.wi, p.wo, nothing, nothing + 1), LOSSES["l2"], "float64")
         self.size = self._target.size
 
     def __call__(self, numbers: NDArray[np.float64]) -> Normal:
-        p = pixels()
         gradient = np.zeros(self._parameters)
         hessian, cost = np.zeros((self._parameters, self._parameters)), 0.0
-        for channel, rows in enumerate(self._values.rows_at(numbers)):
-            summed = np.add.reduceat(rows * p.share, p.first, axis=1)
-            radiance = np.maximum(summed[-1], DARKEST)
-            root = np.cbrt(radiance)
-            residual = np.sqrt(p.weight) * (root - self._target[:, channel])
-            slope = np.sqrt(p.weight) * np.where(summed[-1] > DARKEST, root / (3 * radiance), 0)
-            J, ids = summed[:-1] * slope, list(self._values.active(channel))
+        for ids, J, residual in self._rows(numbers):
             hessian[np.ix_(ids, ids)] += J @ J.T
             gradient[ids] += J @ residual
             cost += 0.5 * float(residual @ residual)
         return Normal(cost, gradient, hessian)
+
+    def sandwich(
+        self, numbers: NDArray[np.float64], is_monochrome: bool
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """As `covariance.sandwich`: each pixel is a measurement, of three channels or of copies of one."""
+        products = np.zeros((self._parameters, self._parameters))
+        together = np.zeros((self._parameters, len(pixels().weight)))
+        for ids, J, residual in self._rows(numbers):
+            products[np.ix_(ids, ids)] += (J * residual) @ (J * residual).T
+            together[ids] += J * residual
+        return self(numbers).hessian, together @ together.T if is_monochrome else products
+
+    def _rows(
+        self, numbers: NDArray[np.float64]
+    ) -> Iterator[tuple[list[int], NDArray[np.float64], NDArray[np.float64]]]:
+        """Of each channel the numbers that act on it, the derivatives by them and the residuals of all pixels."""
+        p = pixels()
+        for channel, rows in enumerate(self._values.rows_at(numbers)):
+            summed = np.add.reduceat(rows * p.share, p.first, axis=1)
+            radiance = np.maximum(summed[-1], DARKEST)
+            root = np.cbrt(radiance)
+            slope = np.where(summed[-1] > DARKEST, root / (3 * radiance), 0)
+            residual = self._root_weight * (root - self._target[:, channel])
+            yield list(self._values.active(channel)), summed[:-1] * slope * self._root_weight, residual

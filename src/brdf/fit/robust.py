@@ -29,9 +29,10 @@ def require_known(name: str) -> None:
         raise UnknownNameError("robust loss", name, ROBUST)
 
 
-def refine(problem: Problem, equations: Equations, numbers: Array, robust: str) -> tuple[Array, float]:
-    """The numbers at the robust minimum near `numbers`, and the residual from which on one counts less.
+def refine(problem: Problem, equations: Equations, weight: Array, numbers: Array, robust: str) -> tuple[Array, float]:
+    """The numbers near `numbers` where the sum of weight rho(r) is least, and from which r on one counts less.
 
+    `equations`: of samples without weights, for what counts as an outlier does not depend on them; `weight` (N, 3).
     All free numbers are searched for.
     """
     from scipy.optimize import least_squares
@@ -60,11 +61,29 @@ def refine(problem: Problem, equations: Equations, numbers: Array, robust: str) 
             blocks.append(block * slope)
         return np.concatenate(blocks)[:, free]
 
-    scale = max(SCALE * float(np.median(np.abs(residuals(begin)))), 1e-12)
+    weights = weight.T.ravel()
+    scale = max(SCALE * _median(np.abs(residuals(begin)), weights), 1e-12)
     found: Any = least_squares(
-        residuals, begin, jac=jacobian, bounds=(low, high), loss=robust, f_scale=scale, x_scale="jac"
-    )
+        residuals, begin, jac=jacobian, bounds=(low, high), loss=lambda z: weights * rho(robust, z), f_scale=scale,
+        x_scale="jac",
+    )  # fmt: skip
     return at(found.x), scale
+
+
+def _median(values: Array, weights: Array) -> float:
+    order = np.argsort(values)
+    total = np.cumsum(weights[order])
+    return float(values[order[np.searchsorted(total, total[-1] / 2)]])
+
+
+def rho(robust: str, z: Array) -> Array:
+    """A loss over z = (r / scale)^2, its derivative and its second derivative, (3, N)."""
+    if robust == "soft_l1":
+        return np.array([2 * (np.sqrt(1 + z) - 1), (1 + z) ** -0.5, -0.5 * (1 + z) ** -1.5])
+    if robust == "cauchy":
+        return np.array([np.log1p(z), 1 / (1 + z), -((1 + z) ** -2.0)])
+    root = np.sqrt(np.maximum(z, 1))
+    return np.where(z <= 1, [z, np.ones_like(z), np.zeros_like(z)], [2 * root - 1, 1 / root, -0.5 / root**3])
 
 
 def influence(robust: str, residuals: Array, scale: float) -> tuple[Array, Array]:
@@ -73,8 +92,5 @@ def influence(robust: str, residuals: Array, scale: float) -> tuple[Array, Array
     rho' and rho' + 2 r^2 rho'' at r / scale; both are 1 for least squares.
     """
     z = np.square(residuals / scale)
-    if robust == "soft_l1":
-        return (1 + z) ** -0.5, (1 + z) ** -1.5
-    if robust == "cauchy":
-        return 1 / (1 + z), (1 - z) / (1 + z) ** 2
-    return 1 / np.sqrt(np.maximum(z, 1)), np.where(z <= 1, 1.0, 0.0)
+    _, first, second = rho(robust, z)
+    return first, first + 2 * z * second

@@ -85,8 +85,8 @@ class Samples:
 
     @property
     def is_monochrome(self) -> bool:
-        """Whether the channels are copies of each other: one measurement, not three."""
-        return bool((self.values == self.values[:, :1]).all())
+        """Whether the channels are copies of each other, but for rounding: one measurement, not three."""
+        return bool(np.allclose(self.values, self.values[:, :1], 1e-6, 0))
 
     def __getitem__(self, rows: Any) -> Samples:
         """Some of them."""

@@ -160,9 +160,11 @@ class Choice:
         return self if owner is None else owner._chosen[self.name]
 
     def validated(self, name: str, value: Any) -> str:
-        if not isinstance(value, str) or value not in self.options:
-            raise UnknownNameError(name, str(value), self.options)
-        return str(value)
+        """The option's name; a number stands for a name in digits (a year). Raises UnknownNameError."""
+        text = f"{value:g}" if isinstance(value, (int, float)) else str(value)
+        if text not in self.options:
+            raise UnknownNameError(name, text, self.options)
+        return text
 
 
 def number(
