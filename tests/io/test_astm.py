@@ -24,9 +24,20 @@ def test_spectra(tmp_path):
     np.testing.assert_array_equal(values, [[1, 2], [3, 4]])
 
 
-def test_degrees_are_told_by_a_zenith_angle_beyond_a_right_one(tmp_path):
-    _, angles, _ = rows(tmp_path, HEAD + "R,G,B\n10,0,80,180,1,2,3\n")
-    np.testing.assert_allclose(angles, np.radians([[10, 0, 80, 180]]))
+@pytest.mark.parametrize("zenith", [3.2, 80])
+def test_degrees_are_told_by_a_zenith_angle_beyond_a_right_one(tmp_path, zenith):
+    _, angles, _ = rows(tmp_path, HEAD + f"R,G,B\n1,0,{zenith},180,1,2,3\n")
+    np.testing.assert_allclose(angles, np.radians([[1, 0, zenith, 180]]))
+
+
+def test_a_right_angle_may_be_rounded_up(tmp_path):
+    _, angles, _ = rows(tmp_path, HEAD + "R,G,B\n0.1,0,1.571,3,1,2,3\n")
+    np.testing.assert_array_equal(angles, [[0.1, 0, 1.571, 3]])
+
+
+def test_a_tab_may_separate_the_names_from_vars(tmp_path):
+    (tmp_path / "m.txt").write_text((HEAD + "R,G,B\n0.1,0,0.2,3,1,2,3\n").replace("VARS ", "VARS\t"))
+    np.testing.assert_allclose(io.read(tmp_path / "m.txt")([0, 0, 1.0], [0, 0, 1.0]), [1, 2, 3], rtol=1e-6)
 
 
 def test_columns(tmp_path):
@@ -46,6 +57,8 @@ def test_columns(tmp_path):
         (HEAD + "red,blue\n0.1,0,0.2,3,1,2\n", "its values 'red,blue' are neither R,G,B nor X,Y,Z"),
         (HEAD + "R,G,B\n-0.1,0,0.2,3,1,2,3\n", "its zenith angles must lie in 0 to pi/2 radians"),
         (HEAD + "R,G,B\n0.1,0,95,3,1,2,3\n", "its zenith angles must lie in 0 to pi/2 radians"),
+        (HEAD + "R,G,B\n0.1,0,1.58,3,1,2,3\n1.5,0,1.5,3,1,2,3\n", "has a zenith angle of 1.58, beyond pi/2 in radians"),
+        (HEAD + "R,G,B\n0.1,0,3.19,3,1,2,3\n", "has a zenith angle of 3.19, beyond pi/2 in radians"),
         (HEAD + "600nm,500nm\n0.1,0,0.2,3,1,2\n", "wavelengths must be a list of positive numbers"),
         (HEAD + "R,G,B\n0.1,0,0.2,3,1,2,nan\n", "line 4 holds NaN or infinity"),
         ("VARS theta_i,phi_i,R,G,B\n1,2,3,4,5\n", "VARS must start with theta_i,phi_i,theta_s,phi_s"),

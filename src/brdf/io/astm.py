@@ -2,7 +2,7 @@
 
 A header of lines `KEY value`, the last of which is VARS with the names of the columns; then one line a measurement,
 numbers between commas. Columns are theta_i, phi_i (or without it), theta_s, phi_s, then R,G,B, or X,Y,Z, or
-wavelengths (`550nm`), or one integrated value. Angles are radians; a file with a zenith angle above pi/2 has degrees.
+wavelengths (`550nm`), or one integrated value. Angles are radians; a file with a zenith angle above 3.2 has degrees.
 Source: github.com/KimuraRyo/libbsdf, AstmReader; github.com/belcour/alta, data_io/astm.
 """
 
@@ -36,6 +36,8 @@ _LONGEST_HEADER = 1000
 """Lines."""
 _TOLERANCE = 1e-3
 """By how much a zenith angle may exceed a right angle, radians."""
+_DEGREES = 3.2
+"""From this largest zenith angle on a file has degrees: no measurement keeps all its directions so near the normal."""
 
 
 def recognises(head: bytes, size: int) -> bool:
@@ -72,7 +74,7 @@ def read_rows(path: Path) -> tuple[Array | None, Array, Array]:
 def _columns(path: Path, content: Iterator[tuple[int, str]]) -> list[str]:
     """The names after VARS; the header is used up."""
     for number, line in content:
-        key, _, rest = line.partition(" ")
+        key, _, rest = line.replace("\t", " ").partition(" ")
         if key.strip() == "VARS":
             names = [name.strip() for name in rest.split(",")]
             if len(names) > MOST_COLUMNS:
@@ -86,10 +88,13 @@ def _columns(path: Path, content: Iterator[tuple[int, str]]) -> list[str]:
 def _spherical(path: Path, names: list[str], table: Array) -> Array:
     columns = {name: table[:, k] for k, name in enumerate(names)}
     angles = np.stack([columns.get(name, np.zeros(len(table))) for name in ANGLES], -1)
-    zenith = angles[:, ::2]
-    if zenith.max() > math.pi / 2 + _TOLERANCE:
+    largest = angles[:, ::2].max()
+    if math.pi / 2 + _TOLERANCE < largest < _DEGREES:
+        neither = "beyond pi/2 in radians, and in degrees too small for the largest of a measurement"
+        raise CorruptFileError(path, f"has a zenith angle of {largest:.6g}, {neither}.")
+    if largest >= _DEGREES:
         angles = np.radians(angles)
-        zenith = angles[:, ::2]
+    zenith = angles[:, ::2]
     if zenith.min() < 0 or zenith.max() > math.pi / 2 + _TOLERANCE:
         raise CorruptFileError(path, "its zenith angles must lie in 0 to pi/2 radians, or 0 to 90 degrees.")
     return angles
