@@ -77,17 +77,25 @@ def test_front_is_preferred_to_back_and_transmission(tmp_path):
     assert "reflection front" in m.source
 
 
-def test_colours(tmp_path):
+def coloured(factors):
     block = re.search(r"<WavelengthData>.*</WavelengthData>", klems().decode(), re.S)[0]
     parts = []
-    for name, factor in (("CIE-X", 0.9504559), ("Visible", 1.0), ("CIE-Z", 1.0890578)):
+    for name, factor in zip(("CIE-X", "Visible", "CIE-Z"), factors, strict=True):
         body = "\n".join(",".join(f"{factor * x:.7f}" for x in row) for row in values(block))
         part = block.replace("Visible", name)
         parts.append(re.sub(r"(<ScatteringData>).*?(</Scat)", rf"\g<1>{body}\2", part, flags=re.S))
-    text = re.sub(r"<WavelengthData>.*</WavelengthData>", "".join(parts), klems().decode(), flags=re.S)
-    (tmp_path / "m.xml").write_text(text)
-    m = io.read(tmp_path / "m.xml")
-    np.testing.assert_allclose(m([0, 0, 1.0], [0, 0, 1.0]), values(block)[0, 0], rtol=1e-3)
+    return re.sub(r"<WavelengthData>.*</WavelengthData>", "".join(parts), klems().decode(), flags=re.S)
+
+
+@pytest.mark.parametrize(
+    ("xyz", "rgb"),
+    # white is (1, 1, 1) and not the (.9505, 1, 1.0891) of D65, the white of the RGB space
+    [((1, 1, 1), (1, 1, 1)), ((0.4124 / 0.9505, 0.2126, 0.0193 / 1.0891), (1, 0, 0))],
+)
+def test_colours(tmp_path, xyz, rgb):
+    (tmp_path / "m.xml").write_text(coloured(xyz))
+    m, first = io.read(tmp_path / "m.xml"), values(klems().decode())[0, 0]
+    np.testing.assert_allclose(m([0, 0, 1.0], [0, 0, 1.0]), first * np.array(rgb), atol=1e-3 * first)
 
 
 def test_an_angle_basis_of_the_file(tmp_path):

@@ -1,9 +1,9 @@
 """Matrices of daylighting: the XML that WINDOW writes and Radiance reads, with patches after Klems.
 
 Read is the reflection from the front, or else from the back, in the visible band, or the X, Y and Z of CIE where all
-are there; transmission is left out. Rows of a matrix are outgoing patches, columns incident ones, unless the file says
-`IncidentDataStructure` Rows. Values are in 1/sr. Tensor trees are not read. References: Klems1994. Source:
-github.com/LBNL-ETA/Radiance, common/bsdf_m.c.
+are there, equal ones as grey; transmission is left out. Rows of a matrix are outgoing patches, columns incident ones,
+unless the file says `IncidentDataStructure` Rows. Values are in 1/sr. Tensor trees are not read. References: Klems1994.
+Source: github.com/LBNL-ETA/Radiance, common/bsdf_m.c.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..color import xyz_to_rgb
+from ..color import rgb_to_xyz, xyz_to_rgb
 from ..errors import CorruptFileError
 from ..reflectance import Reflectance
 from ..representations.patches import Patches
@@ -64,12 +64,17 @@ def read(path: Path) -> Reflectance:
     if any(_basis(path, bases, block) != (limits, counts) for block in chosen):
         raise CorruptFileError(path, "its X, Y and Z have different patches.")
     stacked = np.stack(matrices, -1)
-    rgb = xyz_to_rgb(stacked) if chosen else np.repeat(stacked, 3, -1)
+    rgb = _rgb(stacked) if chosen else np.repeat(stacked, 3, -1)
     try:
         made = Patches(rgb, np.radians(limits), counts)
     except ValueError as error:
         raise CorruptFileError(path, f"{error}.") from None
     return made.named(path.stem, f"WINDOW file {path.name}, {side}")
+
+
+def _rgb(xyz: Array) -> Array:
+    """RGB of X, Y and Z under light of equal energy, as WINDOW exports and Radiance takes them: equal ones are grey."""
+    return np.asarray(xyz_to_rgb(xyz * rgb_to_xyz(np.ones(3))))
 
 
 def _parsed(path: Path) -> ET.Element:
