@@ -11,6 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import brdf
@@ -63,6 +64,14 @@ def test_other_options_or_a_damaged_file_are_fitted_again(folder: Path) -> None:
     assert fit_many(DATA[:1], ["Ward"], folder, **OPTIONS).kept == 0
     material.with_suffix(".json").write_text("{")
     assert fit_many(DATA[:1], ["Ward"], folder, **OPTIONS).kept == 0
+
+
+def test_options_may_be_numbers_of_numpy(tmp_path: Path) -> None:
+    given = {"lobes": np.int64(1), "budget": np.int64(1), "seed": np.int64(3), "grazing": np.float32(70)}
+    made = fit_many(DATA[:1], ["Ward"], tmp_path / "fits", diffuse=np.bool_(True), **given)
+    assert (made.kept, made.failures) == (0, {})
+    same = {"lobes": 1, "budget": 1, "seed": 3, "grazing": 70.0}
+    assert fit_many(DATA[:1], ["Ward"], tmp_path / "fits", diffuse=True, **same).fits == made.fits
 
 
 def test_a_changed_file_is_fitted_again(tmp_path: Path) -> None:

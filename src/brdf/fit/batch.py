@@ -117,9 +117,10 @@ def fit_many(
     """
     if jobs < 1:
         raise ParameterError(f"jobs must be at least 1, got {jobs}")
-    _require(models, Options(**options))
+    checked = Options(**options)
+    _require(models, checked)
     folder = Path(folder)
-    tasks = _tasks(data, models, options)
+    tasks = _tasks(data, models, {name: getattr(checked, name) for name in options})
     is_new = _prepare(folder)
     finished = {task.key: found for task in tasks if (found := _finished(folder, task)) is not None}
     kept, failures = len(finished), dict[str, str]()

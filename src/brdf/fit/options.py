@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -19,7 +19,10 @@ BUDGETS = {"quick": 4, "normal": 16, "thorough": 64}
 
 @dataclass(frozen=True)
 class Options:
-    """The options of `brdf.fit`, which tells their meaning. Raises ParameterError, UnknownNameError."""
+    """The options of `brdf.fit`, which tells their meaning; numbers of NumPy become Python's, which JSON can hold.
+
+    Raises ParameterError, UnknownNameError.
+    """
 
     lobes: int | str = 1
     metric: str = "l2"
@@ -31,7 +34,11 @@ class Options:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        if not isinstance(self.lobes, (int, np.integer)) and self.lobes != "auto":
+        for field in fields(self):
+            value = getattr(self, field.name)
+            if isinstance(value, np.generic):
+                object.__setattr__(self, field.name, value.item())
+        if not isinstance(self.lobes, int) and self.lobes != "auto":
             raise ParameterError(f'lobes must be 1 to 3 or "auto", got {self.lobes!r}')
         if self.metric != IMAGE and self.metric not in LOSSES:
             raise UnknownNameError("metric", str(self.metric), [*LOSSES, IMAGE])
@@ -42,9 +49,9 @@ class Options:
         require_grazing(self.grazing)
         if isinstance(self.budget, str) and self.budget not in BUDGETS:
             raise UnknownNameError("budget", self.budget, BUDGETS)
-        if not isinstance(self.starts, (int, np.integer)) or not 1 <= self.starts <= 4096:
+        if not isinstance(self.starts, int) or not 1 <= self.starts <= 4096:
             raise ParameterError(f"a fit begins 1 to 4096 searches, got {self.starts}")
-        if not isinstance(self.seed, (int, np.integer)) or self.seed < 0:
+        if not isinstance(self.seed, int) or self.seed < 0:
             raise ParameterError(f"a seed is a whole number from 0 on, got {self.seed!r}")
 
     @property
