@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from . import io, materials, models, profiles
 from .combinators import add, scaled
@@ -46,20 +47,41 @@ def is_file(spec: str) -> bool:
     return os.path.exists(spec) and not _is_name(spec.strip())
 
 
-def files_of(spec: str | os.PathLike[str]) -> list[Path]:
-    """The files that `load` reads for a description: of a sum all, of pictures that a file names their folder."""
-    if isinstance(spec, os.PathLike) or (os.path.isfile(spec) and not _is_name(spec)):
-        found = [Path(spec)]
-    else:
-        found = [path for term in _PLUS.split(spec) if (path := _file_of(term)) is not None]
-    return [path.parent if io.is_folder_file(path) else path for path in found]
+class Term(NamedTuple):
+    """One term of a description, in the three pieces of its text."""
+
+    before: str
+    """A factor."""
+    file: str
+    """The file or folder that is read; empty where there is none."""
+    after: str
+    """`@NAME`, which of its materials; the whole term where there is no file."""
 
 
-def _file_of(term: str) -> Path | None:
+def terms(spec: str) -> list[Term]:
+    """The terms that `load` takes a description for, between pluses."""
+    return [Term("", spec, "")] if is_file(spec) else [_pieces(term) for term in _PLUS.split(spec)]
+
+
+def _pieces(term: str) -> Term:
     match = _SCALED.fullmatch(term)
-    text = (match[2] if match else term).strip()
-    file = text if os.path.exists(text) else text.rpartition("@")[0]
-    return Path(file) if os.path.exists(file) and not _is_name(text) else None
+    text = (match[2] if match else term).lstrip()
+    candidates = (text.rstrip(), text.rpartition("@")[0])
+    file = next((candidate for candidate in candidates if is_file(candidate)), "")
+    return Term(term[: len(term) - len(text)], file, text[len(file) :])
+
+
+def with_files(spec: str, change: Callable[[str], str]) -> str:
+    """The description with other words for its files."""
+    return "+".join(f"{t.before}{change(t.file) if t.file else ''}{t.after}" for t in terms(spec))
+
+
+def files_of(spec: str | os.PathLike[str]) -> list[Path]:
+    """The files that `load` reads for a description: of a sum all, with those beside one that are read with it; of
+    pictures that a file names their folder.
+    """
+    found = [Path(spec)] if isinstance(spec, os.PathLike) else [Path(t.file) for t in terms(spec) if t.file]
+    return [file for path in found for file in io.files_with(path)]
 
 
 def names_profile(spec: str) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 import subprocess
 import sys
 import time
@@ -81,6 +82,69 @@ def test_a_changed_file_is_fitted_again(tmp_path: Path) -> None:
         done = fit_many([str(path)], ["Lambertian"], tmp_path / "fits", **OPTIONS)
         assert done.kept == (1 if number == 2 else 0)
         assert done.fits[0]["parameters"]["albedo_r"]["value"] == pytest.approx(albedo)
+
+
+@pytest.mark.parametrize(
+    "spec", ["x.safetensors + Lambertian:albedo=.1", "2*x.safetensors", "Lambertian:albedo=.1 + .5 * ./x.safetensors"]
+)
+def test_a_changed_file_in_a_sum_is_fitted_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, spec: str) -> None:
+    fits = []
+    for sub, albedo, kept in (("a", 0.2, 0), ("a", 0.3, 0), ("a", 0.3, 1), ("b", 0.3, 0)):
+        (tmp_path / sub).mkdir(exist_ok=True)
+        monkeypatch.chdir(tmp_path / sub)
+        brdf.models.Lambertian(albedo=albedo).save("x.safetensors")
+        done = fit_many([spec], ["Lambertian"], tmp_path / "fits", **OPTIONS)
+        assert (done.kept, done.failures) == (kept, {})
+        assert str(tmp_path / sub / "x.safetensors") in done.fits[0]["path"]
+        assert float(brdf.load(done.fits[0]["path"]).albedo([0, 0, 1.0])[0]) == pytest.approx(
+            done.fits[0]["parameters"]["albedo_r"]["value"], rel=1e-3
+        )
+        fits.append(done.fits[0])
+    assert fits[0]["file"] == fits[1]["file"] != fits[3]["file"]
+    assert "x.safetensors" in fits[0]["file"]
+    assert tmp_path.name not in fits[0]["file"]
+
+
+def test_a_sum_in_a_folder_with_a_plus_stays_readable(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "c++").mkdir()
+    monkeypatch.chdir(tmp_path / "c++")
+    brdf.models.Lambertian(albedo=0.2).save("x.safetensors")
+    done = fit_many(["2*x.safetensors", "x.safetensors"], ["Lambertian"], tmp_path / "fits", **OPTIONS)
+    assert [one["path"] for one in done.fits] == ["2*x.safetensors", str(tmp_path / "c++" / "x.safetensors")]
+
+
+def test_files_are_fitted_again_when_those_beside_them_have_changed(tmp_path: Path) -> None:
+    pictures = tmp_path / "pictures"
+    pictures.mkdir()
+    (pictures / "sphere-images.json").write_text("{}")
+    for name in ("fc1", "b3"):
+        (tmp_path / f"paint_{name}.npy").touch()
+    data = [
+        str(pictures / "sphere-images.json"),
+        str(tmp_path / "paint_fc1.npy"),
+        str(tmp_path / "paint_fc1.npy@paint"),
+    ]
+    for content, kept in (("a", 0), ("a", 3), ("b", 0)):
+        (pictures / "picture").write_text(content)
+        (tmp_path / "paint_b3.npy").write_text(content)
+        done = fit_many(data, ["Lambertian"], tmp_path / "fits", read=grey, **OPTIONS)
+        assert (done.kept, done.failures) == (kept, {})
+
+
+def test_a_changed_model_is_fitted_again(tmp_path: Path) -> None:
+    path = tmp_path / "m.safetensors"
+    for alpha, kept in ((0.1, 0), (0.1, 1), (0.4, 0)):
+        brdf.models.Ward(alpha=alpha).save(path)
+        done = fit_many(DATA[:1], [str(path)], tmp_path / "fits", fixed=["lobe2_alpha"], **OPTIONS)
+        assert (done.kept, done.failures) == (kept, {})
+        assert done.fits[0]["parameters"]["lobe2_alpha"]["value"] == pytest.approx(alpha)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="pipes with names are of POSIX")
+def test_a_pipe_is_read_by_the_fit_alone(tmp_path: Path) -> None:
+    """Whoever opened it before would wait for a writer, or take what the fit needs."""
+    os.mkfifo(tmp_path / "pipe")
+    assert len(fit_many([str(tmp_path / "pipe")], ["Lambertian"], tmp_path / "fits", read=grey, **OPTIONS).fits) == 1
 
 
 def test_an_interrupted_run_goes_on(tmp_path: Path) -> None:

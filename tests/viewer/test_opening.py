@@ -268,6 +268,9 @@ def test_what_is_followed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
     assert names("m.safetensors + .5*Lambertian:albedo=.1") == ["m.safetensors"]
     assert names("m.safetensors@NAME") == ["m.safetensors"]
     assert names("spheres") == names("spheres/sphere-images.json") == ["spheres"]
+    for name in ("fc1", "b3"):
+        Path(f"paint_{name}.npy").touch()
+    assert names("paint_b3.npy") == names("2*paint_b3.npy@paint") == ["paint_b3.npy", "paint_fc1.npy"]
     assert names(Path("m.safetensors"), "m.safetensors", mesh=mesh) == ["m.safetensors", "m.safetensors", str(mesh)]
     assert names("GGX", mesh="m.obj", env="studio") == ["m.obj"]
 

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from .. import __version__, container
 from ..errors import BrdfError, CorruptFileError, FileError, ParameterError, UnknownNameError
-from ..loading import is_file
+from ..loading import files_of, terms, with_files
 from ..reflectance import Reflectance
 from ..threads import cores
 from .data import Data, data_of
@@ -47,18 +47,21 @@ class Task:
     data: str
     """As it was given."""
     path: str
-    """The same wherever one stands: of a file or a folder its absolute path."""
+    """The same wherever one stands: with the absolute paths of files and folders."""
+    name: str
+    """What its files are called after."""
     model: str
     options: tuple[tuple[str, Any], ...]
     content: str
-    """A digest of the data's file or folder: what has changed is fitted again."""
+    """A digest of the data's files and folders: what has changed is fitted again."""
+    model_content: str
+    """The same of the model's."""
 
     @property
     def key(self) -> str:
         """The stem of its files: of this path and model alone, whatever else is fitted."""
         digest = hashlib.sha256(f"{self.path}\n{self.model}".encode()).hexdigest()[:8]
-        name = Path(self.path).stem if os.path.isabs(self.path) else self.path
-        return f"{_slug(name)}--{_slug(self.model)}-{digest}"
+        return f"{_slug(self.name)}--{_slug(self.model)}-{digest}"
 
     def identity(self) -> dict[str, Any]:
         """What a finished fit must agree in to be kept."""
@@ -67,7 +70,7 @@ class Task:
             "data": self.path,
             "model": self.model,
             "options": options,
-            "content": self.content,
+            "content": _of_all([self.content, self.model_content]),
             "brdf": __version__,
         }
 
@@ -182,42 +185,59 @@ def _data(spec: str, grazing: float, content: str, read: Read) -> Data:
 
 def _tasks(data: Sequence[str], models: Sequence[str], options: Mapping[str, Any]) -> list[Task]:
     given = tuple(sorted((name, tuple(v) if isinstance(v, list) else v) for name, v in options.items()))
+    contents = {model: _digest(model) for model in models}
     found: dict[str, Task] = {}
     for spec in data:
-        place, member = _place(spec)
-        path, content = (os.path.abspath(place) + member, _digest(place)) if place else (spec, "")
+        path, content = _absolute(spec), _digest(spec)
         for model in models:
-            task = Task(spec, path, model, given, content)
+            task = Task(spec, path, _name(spec, path), model, given, content, contents[model])
             found.setdefault(task.key, task)
     return list(found.values())
 
 
-def _place(spec: str) -> tuple[str, str]:
-    """The file or folder that is read, and which of its materials, `@NAME`; empty for what is no file."""
-    if is_file(spec):
-        return spec, ""
-    file, at, member = spec.rpartition("@")
-    return (file, at + member) if at and is_file(file) else ("", "")
+def _absolute(spec: str) -> str:
+    """With absolute paths, except where a plus in the name of a folder would be taken for one of a sum."""
+    path = with_files(spec, os.path.abspath)
+    return path if len(terms(path)) == len(terms(spec)) else spec
+
+
+def _name(spec: str, path: str) -> str:
+    """Of one file its stem, of a sum the text, without folders."""
+    first, *others = terms(spec)
+    if not others and not first.before:
+        return Path(path).stem if os.path.isabs(path) else path
+    return with_files(spec, os.path.basename)
 
 
 def _slug(text: str) -> str:
     return re.sub(r"[^A-Za-z0-9._@-]+", "-", text).strip("-.")[:80] or "data"
 
 
-def _digest(place: str) -> str:
+def _digest(spec: str) -> str:
+    """Of all files that are read for a description; empty where there are none."""
+    return _of_all([_digest_of(place) for place in files_of(spec)])
+
+
+def _of_all(digests: Sequence[str]) -> str:
+    """One for several, and one alone as it is; empty ones are of what has no content."""
+    found = [digest for digest in digests if digest]
+    return hashlib.sha256("\n".join(found).encode()).hexdigest() if len(found) > 1 else "".join(found)
+
+
+def _digest_of(place: Path) -> str:
     """Of a file's content; of a folder the names and the contents of its files; none of a pipe, read only once."""
     try:
-        if os.path.isfile(place):
+        if place.is_file():
             return _content(place)
-        if not os.path.isdir(place):
+        if not place.is_dir():
             return ""
-        files = sorted(path for path in Path(place).iterdir() if path.is_file())
+        files = sorted(path for path in place.iterdir() if path.is_file())
         return hashlib.sha256("\n".join(f"{_content(path)} {path.name}" for path in files).encode()).hexdigest()
     except OSError as error:
         raise FileError(place, f"cannot be read ({error.strerror or error}).") from None
 
 
-def _content(path: str | Path) -> str:
+def _content(path: Path) -> str:
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 

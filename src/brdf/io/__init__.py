@@ -2,6 +2,6 @@
 
 from __future__ import annotations
 
-from .registry import Format, FormatInfo, format_of, formats, is_folder_file, members, read, write
+from .registry import Format, FormatInfo, files_with, format_of, formats, members, read, write
 
-__all__ = ["Format", "FormatInfo", "format_of", "formats", "is_folder_file", "members", "read", "write"]
+__all__ = ["Format", "FormatInfo", "files_with", "format_of", "formats", "members", "read", "write"]

@@ -69,6 +69,13 @@ def members(path: Path) -> dict[str, Callable[[], Reflectance]]:
     return {p.rstrip("/") or path.stem: functools.partial(_from_archive, path, p) for p in prefixes}
 
 
+def beside(path: Path) -> list[Path]:
+    """The other arrays of the material that one is called after."""
+    match = _SINGLE.fullmatch(path.stem)
+    places = [path.with_name(f"{match[1]}_{name}.npy") for name in SHAPES] if match else []
+    return [place for place in places if place != path and place.is_file()]
+
+
 def _from_archive(path: Path, prefix: str) -> Reflectance:
     arrays = {}
     try:
@@ -132,4 +139,5 @@ FORMAT = Format(
     "neural BRDFs, 675 weights a material; take one with PATH@NAME",
     recognises,
     members=members,
+    beside=beside,
 )

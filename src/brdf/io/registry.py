@@ -43,6 +43,8 @@ class Format:
     """The file by which a folder is recognised, for a format that may be one."""
     members: Callable[[Path], Mapping[str, Callable[[], Reflectance]]] | None = None
     """For files that hold several materials: how each is made, by name, in the place of `reader`."""
+    beside: Callable[[Path], list[Path]] = lambda path: []
+    """The files beside one that are read with it, by its name."""
 
     @property
     def reads(self) -> bool:
@@ -93,9 +95,11 @@ def read(path: str | os.PathLike[str], member: str | None = None) -> Reflectance
         raise FileError(path, f"cannot be read ({error.strerror or error}).") from None
 
 
-def is_folder_file(path: Path) -> bool:
-    """Whether it is called as the file that, with others beside it, makes a folder of some format."""
-    return path.name in [f.folder_file for f in _all()]
+def files_with(path: Path) -> list[Path]:
+    """What is read where a file is named: the folder that it describes, or it and those beside it that belong to it."""
+    if path.name in [f.folder_file for f in _all()]:
+        return [path.parent]
+    return [path, *(other for f in _all() for other in f.beside(path))]
 
 
 def members(path: str | os.PathLike[str]) -> list[str]:
