@@ -179,7 +179,7 @@ def test_a_folder_without_pictures_names_what_it_lacks(tmp_path):
 
 def test_only_pictures_are_written_as_pictures(tmp_path):
     with pytest.raises(
-        ReflectanceError, match=r"GGX is no set of sphere pictures; make one with brdf.SphereImages.bake"
+        ReflectanceError, match=r"GGX is no set of sphere pictures; make one first with `brdf bake --as sphere-images`"
     ):
         brdf.io.write(GGX(), tmp_path / "x.exr")
     with pytest.raises(ReflectanceError, match="is no set of sphere pictures"):

@@ -6,6 +6,7 @@ what was under way is lost.
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import hashlib
 import json
@@ -140,7 +141,8 @@ def fit_many(
             progress(len(finished) + len(failures), len(tasks), task.key)
     finally:
         if is_new and not finished:
-            folder.rmdir()
+            with contextlib.suppress(OSError):  # something may have been written
+                folder.rmdir()
     return Batch(
         folder,
         [finished[task.key] for task in tasks if task.key in finished],

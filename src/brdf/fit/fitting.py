@@ -64,7 +64,7 @@ def fit(
     """
     begun = time.perf_counter()
     options = Options(lobes, metric, diffuse, fixed, grazing, robust, budget, seed)
-    samples, reflectance = data if isinstance(data, Data) else data_of(data, grazing)
+    samples, reflectance = data if isinstance(data, Data) else data_of(data, options.grazing)
     if metric == IMAGE and reflectance is None:
         raise ParameterError("the image metric needs a reflectance to make pictures of")
     isotropic = reflectance is None or reflectance.isotropic
