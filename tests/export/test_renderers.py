@@ -99,6 +99,16 @@ def test_blender_gets_the_sockets_of_its_principled_node(tmp_path):
     assert values["IOR"] == pytest.approx(1.5, abs=1e-6)
 
 
+@pytest.mark.parametrize(
+    ("m", "error"),
+    [(Disney(), 44.5), (Disney(metallic=1.0, roughness=0.3), 29.3)],  # dB: 2012 against 2014 with the same numbers
+)
+def test_blender_masks_facets_as_disney_since_2014(tmp_path, m, error):
+    written = brdf.export(m, tmp_path / "m.py").stands_for
+    assert (written.masking, written.roughness, written.metallic) == ("2014", m.roughness, m.metallic)
+    assert brdf.compare(m, written).psnr_mean == pytest.approx(error, abs=0.1)
+
+
 def eval_in_mitsuba(mi, bsdf):
     values = []
     for light, viewer in zip(WI, WO, strict=True):

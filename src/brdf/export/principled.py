@@ -17,12 +17,14 @@ HELD = ("subsurface", "specular_tint", "sheen", "sheen_tint", "clearcoat", "clea
 def principled(m: Reflectance) -> Reflectance:
     """A Disney model of colour, metalness, specular, roughness and anisotropy alone, nearest to `m`.
 
+    Its masking is that of 2014, which renderers evaluate.
     Raises ReflectanceError for what transmits, mirrors or varies in space.
     """
     _require_fittable(m)
     kind = model("Disney")
     if isinstance(m, kind) and all(getattr(m, name) == getattr(kind(), name) for name in HELD):
-        return m
+        # A fit to the masking of 2012 is nearer in the squared difference and farther in pictures.
+        return m if m.masking == "2014" else m.replaced(masking="2014")
     held = HELD if not m.isotropic else (*HELD, "anisotropic")
     return fit(m, kind(masking="2014"), fixed=held, budget="quick", diffuse=False).reflectance
 
