@@ -8,9 +8,9 @@ from typing import Any
 from ..container import replacing
 from ..reflectance import Reflectance
 from .principled import index_of, principled
-from .target import Target, Written
+from .target import Target, Written, title
 
-SCRIPT = '''"""Makes the material {name!r} in Blender 4.0 or newer: open it in the Text Editor and run it."""
+SCRIPT = '''"""Makes a material in Blender 4.0 or newer: open this in the Text Editor and run it."""
 
 NAME = {name!r}
 INPUTS = {{
@@ -49,7 +49,7 @@ def write(m: Reflectance, path: Path) -> Written:
     }
     listed = "\n".join(f'    "{socket}": {value!r},' for socket, value in inputs.items())
     with replacing(path) as temporary:
-        temporary.write_text(SCRIPT.format(name=m.name or type(m).__name__, inputs=listed), "utf-8")
+        temporary.write_text(SCRIPT.format(name=title(m), inputs=listed), "utf-8")
     return Written((path,), made.named(m.name, f"principled parameters in {path.name}"))
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from ..container import replacing
 from ..reflectance import Reflectance
 from .principled import metallic_roughness
-from .target import Target, Written
+from .target import Target, Written, title
 
 
 def write(m: Reflectance, path: Path) -> Written:
@@ -23,7 +23,7 @@ def write(m: Reflectance, path: Path) -> Written:
     }
     document = {
         "asset": {"version": "2.0", "generator": "brdf"},
-        "materials": [{"name": m.name or type(m).__name__, "pbrMetallicRoughness": factors}],
+        "materials": [{"name": title(m), "pbrMetallicRoughness": factors}],
     }
     with replacing(path) as temporary:
         temporary.write_text(json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n", "utf-8")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 
 from ..reflectance import Reflectance
+from .target import one_line, title
 
 _EXAMPLES = {
     ".glsl": """\
@@ -64,7 +65,7 @@ def header(m: Reflectance, function: str, language: str) -> str:
     uv = ", uv" if m.varies else ""
     domain = "on both sides of the surface" if m.transmits else "0 where wi.z <= 0 or wo.z <= 0"
     facts = [
-        f"{function}: the reflectance of {m.name or type(m).__name__}" + (f" ({m.source})" if m.source else ""),
+        f"{function}: the reflectance of {title(m)}" + (f" ({one_line(m.source)})" if m.source else ""),
         "f(wi, wo) in 1/sr, without the cosine, linear RGB (Rec. 709). wi points to the light, wo to the viewer, both "
         "of unit length, in the frame tangent (x), bitangent (y), normal (z): " + domain + ".",
         *(["uv: the place on the surface, u to the right, v up, both in [0, 1]."] if m.varies else []),

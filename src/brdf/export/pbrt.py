@@ -17,7 +17,7 @@ from ..container import replacing
 from ..reflectance import Reflectance
 from ..representations.adaptive import Adaptive
 from ..representations.baking.adaptive_grid import bake_adaptive
-from .target import Target, Written, identifier
+from .target import Target, Written, identifier, title
 
 WAVELENGTHS = np.linspace(380, 740, 19)
 """nm"""
@@ -55,7 +55,7 @@ def write(m: Reflectance, path: Path) -> Written:
     name, quoted = identifier(m), re.sub(r'(["\\])', r"\\\1", beside.name)
     with replacing(path) as temporary:
         temporary.write_text(
-            f'# {m.name or type(m).__name__}; use it by: NamedMaterial "{name}"\n'
+            f'# {title(m)}; use it by: NamedMaterial "{name}"\n'
             f'MakeNamedMaterial "{name}" "string type" "measured" "string filename" "{quoted}"\n',
             "utf-8",
         )

@@ -44,6 +44,16 @@ def targets() -> dict[str, Target]:
     return dict(sorted(found.items()))
 
 
+def title(m: Reflectance) -> str:
+    """The name for comments and strings in files of all targets: one printable line."""
+    return one_line(m.name) or type(m).__name__
+
+
+def one_line(text: str) -> str:
+    """The text with blanks and ends of lines as single spaces, and `?` for what cannot be printed."""
+    return "".join(c if c.isprintable() else "?" for c in " ".join(text.split()))
+
+
 def identifier(m: Reflectance) -> str:
     """A name that files of all targets take: letters, digits and underscores, no digit first."""
     plain = re.sub(r"\W+", "_", m.name or type(m).__name__, flags=re.ASCII).strip("_") or "material"
