@@ -17,7 +17,7 @@ from brdf.errors import ParameterError, ReflectanceError
 from brdf.export import pbrt, principled
 from brdf.export.mitsuba_scene import bsdf_dict
 from brdf.export.target import targets
-from brdf.models import Disney, GltfMetallicRoughness, Lambertian, Microfacet, OpenPBR
+from brdf.models import GGX, Disney, GltfMetallicRoughness, Lambertian, Microfacet, OpenPBR
 from helpers import random_directions
 
 GLTF = GltfMetallicRoughness(base_color=(0.8, 0.4, 0.1), metallic=0.3, roughness=0.5).named("an orange")
@@ -55,6 +55,53 @@ def test_materialx_is_valid_and_holds_the_parameters(tmp_path):
             np.testing.assert_allclose(found, value, rtol=1e-5, atol=1e-7)
         (material,) = document.getMaterialNodes()
         assert [node.getName() for node in mx.getShaderNodes(material)] == [shader.getName()]
+
+
+ACROSS = GGX(alpha_x=0.15, alpha_y=0.4, F0=(0.9, 0.6, 0.2))
+"""Wider along the bitangent, as no principled model is."""
+
+
+def test_materialx_turns_the_tangent_of_what_is_wider_across(tmp_path):
+    mx = pytest.importorskip("MaterialX")
+    glsl = pytest.importorskip("MaterialX.PyMaterialXGenGlsl")
+    shaders = pytest.importorskip("MaterialX.PyMaterialXGenShader")
+    done = brdf.export(ACROSS, tmp_path / "m.mtlx")
+    assert brdf.compare(ACROSS, done.stands_for).psnr_mean > 100
+    document, library = mx.createDocument(), mx.createDocument()
+    mx.loadLibraries(mx.getDefaultDataLibraryFolders(), mx.getDefaultDataSearchPath(), library)
+    mx.readFromXmlFile(document, str(tmp_path / "m.mtlx"))
+    (shader,) = document.getNodes("open_pbr_surface")
+    document.importLibrary(library)
+    valid, message = document.validate()
+    assert valid, message
+    turned = shader.getConnectedNode("geometry_tangent")
+    assert (turned.getCategory(), turned.getInputValue("amount")) == ("rotate3d", 90)
+    assert [turned.getConnectedNode(name).getCategory() for name in ("in", "axis")] == ["tangent", "normal"]
+    generator = glsl.GlslShaderGenerator.create()
+    context = shaders.GenContext(generator)
+    context.registerSourceCodeSearchPath(mx.getDefaultDataSearchPath())
+    text = generator.generate("m", shaders.findRenderableElements(document)[0], context).getSourceCode("pixel")
+    assert "mx_rotate_vector3(GGX_tangent_tangent_out, GGX_tangent_amount, GGX_tangent_normal_out" in text
+
+
+def test_blender_turns_the_tangent_of_what_is_wider_across(tmp_path):
+    done = brdf.export(ACROSS, tmp_path / "m.py")
+    scope = {"__name__": "read"}
+    exec((tmp_path / "m.py").read_text(), scope)
+    assert scope["INPUTS"]["Anisotropic Rotation"] == 0.25
+    assert scope["INPUTS"]["Anisotropic"] == pytest.approx(0.69, abs=0.01)
+    assert brdf.compare(ACROSS, done.stands_for).psnr_mean > 40
+
+
+@pytest.mark.parametrize("alpha", [0.01, 0.1, 0.3])
+@pytest.mark.parametrize("ndf", ["ggx", "beckmann"])
+def test_highlights_wider_across_are_found(alpha, ndf):
+    across = Microfacet(ndf=ndf, alpha_x=alpha, alpha_y=1.2 * alpha, F0=0.04)
+    along = Microfacet(ndf=ndf, alpha_x=1.2 * alpha, alpha_y=alpha, F0=0.04)
+    base = Lambertian(albedo=0.5)
+    assert principled.aligned(base + across).is_turned
+    assert not principled.aligned(base + along).is_turned
+    assert not principled.aligned(base + Microfacet(ndf=ndf, alpha=alpha)).is_turned
 
 
 def test_openpbr_is_written_as_it_is(tmp_path):

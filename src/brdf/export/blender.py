@@ -7,7 +7,7 @@ from typing import Any
 
 from ..container import replacing
 from ..reflectance import Reflectance
-from .principled import index_of, principled
+from .principled import aligned, index_of, principled
 from .target import Target, Written, title
 
 SCRIPT = '''"""Makes a material in Blender 4.0 or newer: open this in the Text Editor and run it."""
@@ -37,7 +37,8 @@ if __name__ == "__main__":
 
 def write(m: Reflectance, path: Path) -> Written:
     """The inputs of a Principled BSDF, by a fit of Disney's model, from which it descends."""
-    made = principled(m)
+    along = aligned(m)
+    made = principled(along.reflectance)
     row: dict[str, Any] = dict(made.values)
     inputs = {
         "Base Color": (*(round(float(x), 6) for x in row["base_color"]), 1.0),
@@ -47,10 +48,12 @@ def write(m: Reflectance, path: Path) -> Written:
         "Specular IOR Level": 0.5,
         "Anisotropic": round(float(row["anisotropic"]), 6),
     }
+    if along.is_turned:
+        inputs["Anisotropic Rotation"] = 0.25  # of a whole turn
     listed = "\n".join(f'    "{socket}": {value!r},' for socket, value in inputs.items())
     with replacing(path) as temporary:
         temporary.write_text(SCRIPT.format(name=title(m), inputs=listed), "utf-8")
-    return Written((path,), made.named(m.name, f"principled parameters in {path.name}"))
+    return Written((path,), along.back(made).named(m.name, f"principled parameters in {path.name}"))
 
 
 TARGET = Target("Blender", ".py", "a script that sets up a Principled BSDF, by a fit", write)

@@ -3,15 +3,60 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
-from ..combinators.varying import SpatiallyVarying
+import numpy as np
+
+from ..color import LUMINANCE
+from ..combinators import QuarterTurned, SpatiallyVarying
 from ..errors import ReflectanceError
 from ..fit import fit
+from ..geometry.directions import from_spherical
 from ..models import get as model
 from ..reflectance import Reflectance
 
 HELD = ("subsurface", "specular_tint", "sheen", "sheen_tint", "clearcoat", "clearcoat_gloss")
 """Parameters of Disney's model that other principled models mean otherwise: left at their defaults."""
+
+NODES = 64
+"""Angles of the half vector, along elevation and azimuth, at which the shape of a highlight is looked at."""
+
+ROUNDING = 1e-9
+"""Of sums over a highlight: a difference of less is none."""
+
+
+class Aligned(NamedTuple):
+    """A reflectance whose highlight is no narrower along the tangent than along the bitangent."""
+
+    reflectance: Reflectance
+    is_turned: bool
+    """Whether it lies turned by 90 degrees."""
+
+    def back(self, m: Reflectance) -> Reflectance:
+        """What was fitted to the aligned reflectance, turned back to the given one."""
+        return QuarterTurned(m).named(m.name, m.source) if self.is_turned else m
+
+
+def aligned(m: Reflectance) -> Aligned:
+    """`m`, or `m` turned by 90 degrees where its highlight is wider along the bitangent.
+
+    Principled models stretch theirs along the tangent alone; a renderer turns the tangent.
+    Raises ReflectanceError as `principled`.
+    """
+    _require_fittable(m)
+    is_turned = not m.isotropic and _is_wider_across(m)
+    return Aligned(QuarterTurned(m) if is_turned else m, is_turned)
+
+
+def _is_wider_across(m: Reflectance) -> bool:
+    """By the second moments of the facets, of which there are f(h, h) cos(h)^2 up to a factor: a diffuse part and
+    whatever else is round adds as much to both."""
+    theta = (math.pi / 2) * ((np.arange(NODES) + 0.5) / NODES)[:, None] ** 2  # highlights are narrow
+    h = from_spherical(theta, np.arange(NODES) * (2 * math.pi / NODES))
+    facets = np.maximum(m(h, h) @ np.asarray(LUMINANCE), 0) * h[..., 2] ** 2
+    area = np.sqrt(theta) * np.sin(theta)
+    along, across = (float(np.sum(area * facets * h[..., axis] ** 2)) for axis in (0, 1))
+    return across > (1 + ROUNDING) * along
 
 
 def principled(m: Reflectance) -> Reflectance:

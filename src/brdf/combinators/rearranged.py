@@ -1,0 +1,87 @@
+"""Reflectances met from elsewhere: turned about the normal."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import ReflectanceError
+from ..formula.vec import Vec
+from ..reflectance import Floats, Reflectance
+
+
+class Rearranged(Reflectance):
+    """f(wi, wo) = f_base at a pair of directions made of the given ones, which keeps them above the horizon.
+
+    Raises ReflectanceError for a base that transmits or mirrors.
+    """
+
+    def __init__(self, base: Reflectance) -> None:
+        if base.transmits or base.has_delta:
+            raise ReflectanceError(f"{base.name or type(base).__name__} transmits or mirrors; only values can be moved")
+        self._children = {"base": base}
+        self.name, self.source = base.name, base.source
+
+    @abstractmethod
+    def pair(self, wi: Vec, wo: Vec) -> tuple[Vec, Vec]:
+        """The directions at which the base is evaluated."""
+
+    @property
+    def children(self) -> Mapping[str, Reflectance]:
+        return self._children
+
+    @property
+    def has_formula(self) -> bool:
+        return self._children["base"].has_formula
+
+    @property
+    def isotropic(self) -> bool:
+        return self._children["base"].isotropic
+
+    @property
+    def varies(self) -> bool:  # type: ignore[override]
+        return self._children["base"].varies
+
+    @property
+    def structure(self) -> tuple[Any, ...]:
+        return (type(self), self._children["base"].structure)
+
+    @property
+    def values(self) -> Mapping[str, Any]:
+        return {f"base_{k}": v for k, v in self._children["base"].values.items()}
+
+    @property
+    def textures(self) -> Mapping[str, NDArray[Any]]:
+        return {f"base_{k}": v for k, v in self._children["base"].textures.items()}
+
+    def f(self, wi: Vec, wo: Vec) -> Vec:
+        bound: Any = self
+        value: Vec = bound.base.f(*self.pair(wi, wo))
+        return value
+
+    def _evaluate_arrays(self, wi: Floats, wo: Floats, clamp: bool) -> Floats:
+        return self._evaluate_places(wi, wo, np.full((len(wi), 2), 0.5, wi.dtype), clamp)
+
+    def _evaluate_places(self, wi: Floats, wo: Floats, uv: Floats, clamp: bool) -> Floats:
+        base = self._children["base"]
+        moved_wi, moved_wo = (np.stack(w.components, -1) for w in self.pair(Vec(*wi.T), Vec(*wo.T)))
+        value: Floats = (base if clamp else base.raw)(moved_wi, moved_wo, uv)
+        return value
+
+    def _state(self) -> tuple[dict[str, Any], dict[str, NDArray[Any]]]:
+        return {}, {}
+
+    @classmethod
+    def _restore(cls, header: Any, arrays: Any, children: Mapping[str, Reflectance]) -> Reflectance:
+        return cls(children["base"])
+
+
+class QuarterTurned(Rearranged):
+    """The base, lying on the surface turned by 90 degrees about the normal: its tangent is the bitangent here."""
+
+    def pair(self, wi: Vec, wo: Vec) -> tuple[Vec, Vec]:
+        return Vec(wi.y, -wi.x, wi.z), Vec(wo.y, -wo.x, wo.z)
