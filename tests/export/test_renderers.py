@@ -237,8 +237,23 @@ def test_a_measurement_of_the_same_name_is_left_alone(tmp_path, data, extension)
 
 def test_spectra_of_primaries_have_their_colours():
     basis = pbrt.spectra_of_primaries(pbrt.WAVELENGTHS)
-    np.testing.assert_allclose(rgb_weights(pbrt.WAVELENGTHS).T @ basis, np.eye(3), atol=1e-9)
-    np.testing.assert_allclose(basis.sum(1), 1, atol=1e-9)
+    np.testing.assert_allclose(rgb_weights(pbrt.WAVELENGTHS).T @ basis, np.eye(3), atol=1e-6)
+    np.testing.assert_allclose(basis.sum(1), 1, atol=1e-6)
+    assert basis.min() >= 0
+
+
+def test_pbrt_gets_saturated_colours_as_they_are(tmp_path):
+    m = Lambertian(albedo=(0.02, 0.9, 0.02)) + GGX(alpha=0.2)
+    assert brdf.compare(m, brdf.export(m, tmp_path / "m.pbrt").stands_for).psnr_mean > 50
+
+
+def test_pbrt_gets_a_diffuse_colour_as_numbers(tmp_path):
+    m = Lambertian(albedo=(0.02, 0.9, 0.125)).named("grass")
+    done = brdf.export(m, tmp_path / "m.pbrt")
+    assert (done.files, done.stands_for) == ((tmp_path / "m.pbrt",), m)
+    assert (tmp_path / "m.pbrt").read_text().splitlines()[1] == (
+        'MakeNamedMaterial "grass" "string type" "diffuse" "rgb reflectance" [ 0.02 0.9 0.125 ]'
+    )
 
 
 def test_the_principled_fit_finds_itself():
