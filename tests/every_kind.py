@@ -8,7 +8,7 @@ import numpy as np
 
 import brdf
 from brdf import ShadingMap, SliceStack, SpatiallyVarying, SphereImages, Table, TwoSided, models
-from brdf.combinators import QuarterTurned
+from brdf.combinators import QuarterTurned, Transposed
 from brdf.geometry.warps import Circle, listed
 from brdf.models import GGX, EnergyCompensated, Lambertian, Microfacet
 from brdf.reflectance import Reflectance
@@ -43,6 +43,7 @@ MODELS: dict[str, Callable[[], Reflectance]] = {
     "sum": lambda: 0.5 * Lambertian() + GGX(alpha=0.05),
     "two-sided": lambda: TwoSided(GGX(alpha=0.3), Lambertian(albedo=(0.1, 0.2, 0.3))),
     "turned": lambda: QuarterTurned(GGX(alpha_x=0.08, alpha_y=0.4)),
+    "transposed": lambda: Transposed(models.OpenPBR(coat_weight=0.5)),
     "energy compensated": lambda: EnergyCompensated(Microfacet(alpha=0.5)),
     "energy compensated, anisotropic": lambda: EnergyCompensated(Microfacet(alpha_x=0.5, alpha_y=0.2)),
     "varying": lambda: SpatiallyVarying(0.5 * Lambertian() + GGX(), lobe2_alpha=ALPHA, lobe1_base_albedo=COLOUR),

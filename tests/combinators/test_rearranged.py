@@ -1,4 +1,4 @@
-"""Turned reflectances: the same values at other directions."""
+"""Turned and transposed reflectances: the same values at other directions."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import pytest
 from tests.representations.synthetic_rgl import tensors
 
 import brdf
-from brdf.combinators import QuarterTurned, SpatiallyVarying
+from brdf.combinators import QuarterTurned, SpatiallyVarying, Transposed
 from brdf.errors import ReflectanceError
-from brdf.models import GGX, Mirror, SmoothDielectric
+from brdf.models import GGX, Mirror, OpenPBR, SmoothDielectric
 from brdf.representations.adaptive import Adaptive
 from helpers import random_directions
 
@@ -28,6 +28,12 @@ def test_the_tangent_turns_towards_the_bitangent() -> None:
     turned = np.array([[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])  # rows: where x, y and z go
     np.testing.assert_allclose(QuarterTurned(m)(WI @ turned, WO @ turned), m(WI, WO), rtol=1e-6)
     np.testing.assert_allclose(QuarterTurned(m).raw(WI @ turned, WO @ turned), m.raw(WI, WO), rtol=1e-6, atol=1e-9)
+
+
+@pytest.mark.parametrize("m", [OpenPBR(coat_weight=0.5), Adaptive(tensors())], ids=["formula", "measurement"])
+def test_light_and_viewer_are_exchanged(m: brdf.Reflectance) -> None:
+    np.testing.assert_allclose(Transposed(m)(WI, WO), m(WO, WI), rtol=1e-6)
+    assert np.abs(m(WI, WO) / m(WO, WI) - 1).max() > 0.01
 
 
 def test_what_varies_varies_on() -> None:

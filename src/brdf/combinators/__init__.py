@@ -2,9 +2,20 @@
 
 from __future__ import annotations
 
-from .rearranged import QuarterTurned
+from .rearranged import QuarterTurned, Transposed
 from .sums import Scaled, Sum, add, lobes, mix, scaled
 from .two_sided import TwoSided
 from .varying import SpatiallyVarying
 
-__all__ = ["QuarterTurned", "Scaled", "SpatiallyVarying", "Sum", "TwoSided", "add", "lobes", "mix", "scaled"]
+__all__ = [
+    "QuarterTurned",
+    "Scaled",
+    "SpatiallyVarying",
+    "Sum",
+    "Transposed",
+    "TwoSided",
+    "add",
+    "lobes",
+    "mix",
+    "scaled",
+]

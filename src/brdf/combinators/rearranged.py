@@ -1,4 +1,4 @@
-"""Reflectances met from elsewhere: turned about the normal."""
+"""Reflectances at other directions: turned about the normal, or with light and viewer exchanged."""
 
 from __future__ import annotations
 
@@ -85,3 +85,10 @@ class QuarterTurned(Rearranged):
 
     def pair(self, wi: Vec, wo: Vec) -> tuple[Vec, Vec]:
         return Vec(wi.y, -wi.x, wi.z), Vec(wo.y, -wo.x, wo.z)
+
+
+class Transposed(Rearranged):
+    """The base with light and viewer exchanged, f(wi, wo) = f_base(wo, wi): itself where it is reciprocal."""
+
+    def pair(self, wi: Vec, wo: Vec) -> tuple[Vec, Vec]:
+        return wo, wi

@@ -9,9 +9,12 @@ from typing import Any
 import numpy as np
 
 from .. import io
+from ..combinators import Transposed
 from ..container import replacing
 from ..models import get as model
 from ..reflectance import Reflectance
+from ..representations.adaptive import Adaptive
+from ..representations.scattered import Scattered
 from .target import Target, Written, identifier
 
 VERSION = "3.0.0"
@@ -19,7 +22,7 @@ VERSION = "3.0.0"
 
 def bsdf_dict(m: Reflectance, measured: Path) -> dict[str, Any]:
     """What `mitsuba.load_dict` takes: one of Mitsuba's own models where `m` is the same, else `measured`, which reads
-    the RGL file `measured` (not written here). Colours are lists of three."""
+    the RGL file `measured` (not written here; of `stored(m)`). Colours are lists of three."""
     if isinstance(m, model("Lambertian")):
         return {"type": "diffuse", "reflectance": _rgb(m.values["albedo"])}
     if isinstance(m, model("Microfacet")) and _is_rough_conductor(m):
@@ -28,6 +31,14 @@ def bsdf_dict(m: Reflectance, measured: Path) -> dict[str, Any]:
         optical = {"eta": _rgb(row["eta"]), "k": _rgb(row["k"])}
         return {"type": "roughconductor", "distribution": str(m.ndf), **widths, **optical}
     return {"type": "measured", "filename": str(measured)}
+
+
+def stored(m: Reflectance) -> Reflectance:
+    """What goes into the RGL file for Mitsuba to give the values of `m`: it takes the viewer as the incident direction.
+
+    Measurements stay as they are: one on adaptive grids is not resampled, a scattered one is reciprocal.
+    """
+    return m if isinstance(m, (Adaptive, Scattered)) else Transposed(m)
 
 
 def _is_rough_conductor(m: Any) -> bool:
@@ -45,8 +56,8 @@ def write(m: Reflectance, path: Path) -> Written:
     files: tuple[Path, ...] = (path,)
     stands_for = m
     if described["type"] == "measured":
-        io.write(m, beside, "RGL")
-        files, stands_for = (path, beside), io.read(beside)
+        io.write(stored(m), beside, "RGL")
+        files, stands_for = (path, beside), Transposed(io.read(beside))
     root = ET.Element("scene", version=VERSION)
     node = ET.SubElement(root, "bsdf", type=described.pop("type"), id=identifier(m))
     for name, value in described.items():
