@@ -106,7 +106,9 @@ def test_highlights_wider_across_are_found(alpha, ndf):
 
 def test_openpbr_is_written_as_it_is(tmp_path):
     m = OpenPBR(coat_weight=0.5, fuzz_weight=0.2)
-    assert brdf.export(m, tmp_path / "m.mtlx").stands_for is m
+    written = brdf.export(m, tmp_path / "m.mtlx").stands_for
+    assert isinstance(written, OpenPBR)
+    assert dict(written.values) == dict(m.values)
 
 
 def test_gltf_is_read_by_its_library(tmp_path, red):
@@ -282,3 +284,12 @@ def test_what_cannot_be_written(tmp_path, extension):
     with pytest.raises(ParameterError, match="has no function to name"):
         brdf.export(GLTF, tmp_path / f"m{extension}", function="f")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("kind", "model"), [(".mtlx", "OpenPBR"), (".gltf", "GltfMetallicRoughness"), (".py", "Disney")]
+)
+def test_what_is_written_as_it_is_stays_what_it_was(tmp_path, kind, model):
+    m = brdf.load(model).named("mine", "measured by hand")
+    brdf.export(m, tmp_path / f"x{kind}")
+    assert (m.name, m.source) == ("mine", "measured by hand")

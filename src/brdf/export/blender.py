@@ -8,7 +8,7 @@ from typing import Any
 from ..container import replacing
 from ..reflectance import Reflectance
 from .principled import aligned, index_of, principled
-from .target import Target, Written, title
+from .target import Target, Written, stand_in, title
 
 SCRIPT = '''"""Makes a material in Blender 4.0 or newer: open this in the Text Editor and run it."""
 
@@ -53,7 +53,7 @@ def write(m: Reflectance, path: Path) -> Written:
     listed = "\n".join(f'    "{socket}": {value!r},' for socket, value in inputs.items())
     with replacing(path) as temporary:
         temporary.write_text(SCRIPT.format(name=title(m), inputs=listed), "utf-8")
-    return Written((path,), along.back(made).named(m.name, f"principled parameters in {path.name}"))
+    return Written((path,), stand_in(along.back(made), m, f"principled parameters in {path.name}"))
 
 
 TARGET = Target("Blender", ".py", "a script that sets up a Principled BSDF, by a fit", write)

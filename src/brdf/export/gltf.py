@@ -9,7 +9,7 @@ from typing import Any
 from ..container import replacing
 from ..reflectance import Reflectance
 from .principled import metallic_roughness
-from .target import Target, Written, title
+from .target import Target, Written, stand_in, title
 
 
 def write(m: Reflectance, path: Path) -> Written:
@@ -27,7 +27,7 @@ def write(m: Reflectance, path: Path) -> Written:
     }
     with replacing(path) as temporary:
         temporary.write_text(json.dumps(document, indent=2, ensure_ascii=False, allow_nan=False) + "\n", "utf-8")
-    return Written((path,), made.named(m.name, f"glTF material in {path.name}"))
+    return Written((path,), stand_in(made, m, f"glTF material in {path.name}"))
 
 
 TARGET = Target("glTF", ".gltf", "metallic-roughness material, by a fit", write)

@@ -10,7 +10,7 @@ import numpy as np
 from ..container import replacing
 from ..reflectance import Reflectance
 from .principled import aligned, open_pbr
-from .target import Target, Written, identifier
+from .target import Target, Written, identifier, stand_in
 
 VERSION = "1.39"
 
@@ -33,7 +33,7 @@ def write(m: Reflectance, path: Path) -> Written:
     ET.indent(root)
     with replacing(path) as temporary:
         ET.ElementTree(root).write(temporary, encoding="utf-8", xml_declaration=True)
-    return Written((path,), along.back(surface).named(m.name, f"OpenPBR in {path.name}"))
+    return Written((path,), stand_in(along.back(surface), m, f"OpenPBR in {path.name}"))
 
 
 def _turn_tangent(root: ET.Element, name: str) -> None:

@@ -18,7 +18,7 @@ from ..models import get as model
 from ..reflectance import Reflectance
 from ..representations.adaptive import Adaptive
 from ..representations.baking.adaptive_grid import bake_adaptive
-from .target import Target, Written, identifier, title
+from .target import Target, Written, identifier, stand_in, title
 
 WAVELENGTHS = np.linspace(380, 740, 19)
 """nm"""
@@ -66,7 +66,7 @@ def write(m: Reflectance, path: Path) -> Written:
     io.write(measured, beside, "RGL")
     quoted = re.sub(r'(["\\])', r"\\\1", beside.name)
     _write_material(m, path, f'"string type" "measured" "string filename" "{quoted}"')
-    return Written((path, beside), measured.named(m.name, f"spectral measurement {beside.name}"))
+    return Written((path, beside), stand_in(measured, m, f"spectral measurement {beside.name}"))
 
 
 def _write_material(m: Reflectance, path: Path, parameters: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 import importlib
 import pkgutil
@@ -42,6 +43,11 @@ def targets() -> dict[str, Target]:
     modules = [importlib.import_module(f"{__package__}.{m.name}") for m in pkgutil.iter_modules(package.__path__)]
     found = {module.TARGET.extension: module.TARGET for module in modules if hasattr(module, "TARGET")}
     return dict(sorted(found.items()))
+
+
+def stand_in(written: Reflectance, m: Reflectance, source: str) -> Reflectance:
+    """What was written of `m`, under its name; a copy, for it may be `m` itself."""
+    return copy.copy(written).named(m.name, source)
 
 
 def title(m: Reflectance) -> str:
