@@ -113,3 +113,19 @@ def test_what_cannot_be_drawn_is_not_taken(viewer: Opened, tmp_path: Path, chang
     assert message in said
     assert (viewer.state, viewer.page.evaluate("viewer.slots.sources.length")) == before
     viewer.finished()
+
+
+TWO = """([first, second]) => viewer.frame.drop.open([first, second].map((text, number) =>
+    new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], `${number}.safetensors`)))"""
+
+
+@pytest.mark.parametrize("compare", ["first", "split", "side"])
+def test_two_files_become_a_and_b(viewer: Opened, tmp_path: Path, compare: str) -> None:
+    viewer.set(compare=compare)
+    files = []
+    for name in ("one", "two"):
+        GGX(alpha=0.3).named(name).save(tmp_path / name)
+        files.append(base64.b64encode((tmp_path / name).read_bytes()).decode())
+    viewer.page.evaluate(TWO, files)
+    assert viewer.page.evaluate("viewer.materials().map((m) => m.name)") == ["one", "two"]
+    assert viewer.state["compare"] == ("split" if compare == "first" else compare)

@@ -156,3 +156,16 @@ def test_help_opens_and_closes(ball: Opened) -> None:
     assert dialog.is_visible()
     dialog.get_by_role("button", name="Close").click()
     assert not dialog.is_visible()
+
+
+@pytest.mark.parametrize("distance", [1.1, 1.5, 3])
+def test_the_ring_of_a_near_light_stays_under_the_hand(ball: Opened, distance: float) -> None:
+    ball.set(lights=[{"kind": "point", "position": [0, 0, distance], "power": [1, 1, 1]}])
+    x, y = ball.middle()
+    ring = ball.page.get_by_role("button", name="drag, or turn it")
+    for across, down in ((40, -30), (-25, 20), (0, 60)):
+        ball.page.evaluate("place => viewer.moveLight(0, place)", [x + across, y + down])
+        box = ring.bounding_box()
+        assert box is not None
+        assert box["x"] + box["width"] / 2 == pytest.approx(x + across, abs=1)
+        assert box["y"] + box["height"] / 2 == pytest.approx(y + down, abs=1)

@@ -175,6 +175,8 @@ def test_an_open_page_follows_the_file(browser: Browser, tmp_path: Path) -> None
         assert red[0] > red[2]
         assert blue[2] > blue[0]
         assert page.state["exposure"] == 1  # what was chosen stays
+        GGX(alpha=0.2).named("another").save(path)
+        page.until("document.title === 'another'")
 
 
 def test_changes_in_quick_succession_leave_one_viewer(browser: Browser, tmp_path: Path) -> None:

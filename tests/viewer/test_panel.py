@@ -93,6 +93,46 @@ def test_up_to_eight_lights_of_two_kinds_with_colour_and_power(pair: Opened) -> 
     assert pair.state["lights"][0]["power"][0] == pytest.approx(3)
 
 
+def test_keys_stay_where_a_control_changes_the_panel(pair: Opened) -> None:
+    kind = pair.page.get_by_label("Kind of light 1")
+    kind.focus()
+    pair.page.keyboard.press("ArrowDown")
+    assert pair.state["lights"][0]["kind"] == "point"
+    assert kind.evaluate("list => list === document.activeElement")
+    pair.page.keyboard.press("ArrowUp")
+    assert pair.state["lights"][0]["kind"] == "directional"
+    pair.page.get_by_role("button", name="Remove light 1").press("Enter")
+    assert pair.canvas.evaluate("canvas => canvas === document.activeElement")
+    pair.set(parameters=[{"alpha": 0.7}, {}])
+    pair.page.get_by_role("button", name="Reset the parameters").press("Enter")
+    assert pair.canvas.evaluate("canvas => canvas === document.activeElement")
+
+
+def test_lights_far_away_keep_their_power(pair: Opened) -> None:
+    light = {"kind": "point", "position": [2e4, 2e4, 2e4], "power": [1e9, 1e9, 1e9]}
+    pair.set(lights=[light])
+    assert pair.state["lights"] == [light]
+
+
+def test_what_is_shown_may_change_while_another_picture_is_begun(pair: Opened) -> None:
+    pair.set(compare="first")
+    pair.finished()
+    pair.page.evaluate("viewer.set({ compare: 'split' }); viewer.set({ exposure: 1 }); viewer.png()")
+    pair.set(phi=40)
+    pair.finished()
+    assert not pair.page.locator(".message.wrong").is_visible()
+
+
+def test_the_difference_keeps_its_label(pair: Opened) -> None:
+    pair.set(compare="difference")
+    label = pair.page.locator(".name").first
+    before = label.inner_text()
+    assert before.startswith("|A − B|")
+    pair.page.keyboard.press("l")
+    pair.page.evaluate("viewer.frame.refresh(); viewer.themed()")
+    assert label.inner_text() == before
+
+
 def test_exposure_tone_and_backdrop(pair: Opened) -> None:
     dark = pair.picture()
     exposure = pair.page.get_by_role("textbox", name="Exposure, value")

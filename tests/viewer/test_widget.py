@@ -60,6 +60,10 @@ def test_the_state_goes_both_ways(browser: Browser) -> None:
         assert page.page.evaluate("saved") > 0
         page.page.evaluate("model.set('state', { ...model.get('state'), mesh: 'plane', exposure: 1 })")
         page.page.get_by_role("img", name="GGX on a plane").wait_for()
+        page.page.evaluate("model.set('state', { ...model.get('state'), mesh: 'nope' })")
+        assert page.page.evaluate("model.get('state').mesh") == "plane"
+        page.page.evaluate("model.set('payload', model.get('payload'))")
+        page.page.get_by_role("img", name="GGX on a plane").wait_for()
         page.page.evaluate("model.set('height', 200)")
         page.settle()
         box = page.page.get_by_role("img", name="GGX on a plane").bounding_box()

@@ -35,10 +35,11 @@ export class Drop {
 
     /** @param {File[]} files the first two become A and B */
     async open(files) {
-        for (const file of files.slice(0, 2)) {
+        for (const [slot, file] of files.slice(0, 2).entries()) {
             try {
                 this.viewer.frame.notice(`Reading ${file.name} …`);
-                await this.viewer.add(await materialOf(file, this.viewer.payload.library));
+                const source = await materialOf(file, this.viewer.payload.library);
+                await this.viewer.add(source, files[1] && slot);
             } catch (error) {
                 const { message } = /** @type {Error} */ (error);
                 this.viewer.failed(message.includes(file.name) ? error : `${file.name} cannot be shown: ${message}`);

@@ -67,7 +67,6 @@ class Frame {
         const about = [first.kind, size(first.nbytes)].filter(Boolean).join(" · ");
         this.about.textContent = materials.length > 1 ? "" : about;
         viewer.canvas.setAttribute("aria-label", `${[...names].join(" beside ")} on a ${viewer.state.mesh}`);
-        this.labels.forEach((label, slot) => (label.textContent = `${NAMES[slot]}  ${viewer.slots.at(slot).name}`));
         this.panel.refresh();
         this.aim.setAttribute("aria-pressed", String(viewer.lighting));
         this.fold.setAttribute("aria-expanded", String(!this.side.classList.contains("folded")));
@@ -78,8 +77,9 @@ class Frame {
      * @param {import("./layout.js").Pane[]} panes
      */
     arrange(panes) {
-        const { compare, divider } = this.viewer.state;
+        const { slots, state: { compare, divider } } = this.viewer;
         const [a, b] = this.labels;
+        this.labels.forEach((label, slot) => (label.textContent = `${NAMES[slot]}  ${slots.at(slot).name}`));
         a.hidden = b.hidden = compare !== "split" && compare !== "side";
         if (compare === "difference") {
             a.hidden = false;

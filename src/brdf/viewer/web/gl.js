@@ -50,7 +50,7 @@ export class Program {
         const { gl, program } = this;
         if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost()) {
             const log = this.shaders.map((shader) => complaint(gl, shader)).find(Boolean);
-            throw new Error(log || gl.getProgramInfoLog(program) || "The shaders do not fit together.");
+            throw new Error(log || gl.getProgramInfoLog(program) || "The shaders do not fit.");
         }
         const found = new Map();
         let units = 0;
@@ -187,7 +187,7 @@ function plainTexture(gl, target) {
 export function floatTexture(gl, data, channels, width) {
     const height = Math.max(1, Math.ceil(data.length / channels / width));
     const most = gl.getParameter(gl.MAX_TEXTURE_SIZE);
-    if (height > most || width > most) throw new Error("There is too much data for this graphics card.");
+    if (height > most || width > most) throw new Error("Too much data for this graphics card.");
     const full = new Float32Array(width * height * channels);
     full.set(data);
     const made = plainTexture(gl, gl.TEXTURE_2D);

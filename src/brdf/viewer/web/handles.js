@@ -49,12 +49,15 @@ export function mirrored({ camera, ball, size }, place) {
  * @param {Light} light
  */
 function mirrorPlace({ camera, ball, size }, light) {
-    let view = unit(plus(camera.position, ball.middle, -1));
+    const lamp = towardLight(light, ball.middle);
+    const way = plus(unit(plus(camera.position, ball.middle, -1)), lamp, -1);  // to the eye
     let at = ball.middle;
-    for (let round = 0; round < 8; round++) {
-        const sum = plus(towardLight(light, at), view);
-        at = plus(ball.middle, dot(sum, sum) > 1e-6 ? unit(sum) : camera.frame[1], ball.radius);
-        view = unit(plus(camera.position, at, -1));
+    let share = 0.5;  // of the way, halved: a fixed point of the mirror's law would not converge for near lights
+    for (let step = 0.25; step > 1e-7; step /= 2) {
+        const normal = unit(plus(lamp, way, share));
+        at = plus(ball.middle, normal, ball.radius);
+        const view = unit(plus(camera.position, at, -1));
+        share += dot(normal, towardLight(light, at)) > dot(normal, view) ? step : -step;
     }
     return projected(camera, at, size);
 }

@@ -26,7 +26,7 @@ const KEYS = [
 
 /** For those who cannot see the picture. */
 export const KEYS_TEXT =
-    "Arrow keys turn the object, with Shift the light; plus and minus zoom; question mark opens the help.";
+    "Arrow keys turn the object, with Shift the light; plus and minus zoom; ? opens the help.";
 
 /** @returns {HTMLDialogElement} */
 export function helpDialog() {

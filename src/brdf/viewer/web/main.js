@@ -30,6 +30,7 @@ async function show(root, picture, version = "", before = null) {
     try {
         if (bytes instanceof Error) throw bytes;
         const viewer = mount(root, bytes, { picture });
+        document.title = viewer.frame.title.title;
         Object.assign(globalThis, { viewer });  // for the console: viewer.state, viewer.setState({ … })
         return viewer;
     } catch (error) {

@@ -39,7 +39,7 @@ export class Measure {
     }
 
     measure() {
-        if (this.evaluator.gl.isContextLost()) return;
+        if (this.evaluator.gl.isContextLost()) return void (this.key = "");  // so that it is asked for again
         try {
             this.comparer ??= new Comparer(this.evaluator);
             this.psnr = this.comparer.psnr(this.slots.at(0), this.slots.at(1));

@@ -70,8 +70,10 @@ function materialSection(viewer) {
         () => `${slot()} ${viewer.state.materials[slot()]}`,
         () => parameterControls(viewer, slot()),
     );
-    const reset = iconButton("reset", "Reset the parameters", () =>
-        viewer.set({ parameters: viewer.state.parameters.with(slot(), {}) }), { class: "icon action" });
+    const reset = iconButton("reset", "Reset the parameters", () => {
+        viewer.set({ parameters: viewer.state.parameters.with(slot(), {}) });
+        viewer.canvas.focus();  // the button is gone
+    }, { class: "icon action" });
     const made = section("Material", [which, chosen, parameters, plain(note)], { action: reset });
     const refresh = () => {
         which.element.hidden = !["split", "side", "difference"].includes(viewer.state.compare);
@@ -134,7 +136,7 @@ function lightSection(viewer) {
     });
     const strength = stateSlider(viewer, "strength", { label: "Strength", scale: { low: 0.1, high: 10, log: true } });
     const lights = changing(
-        () => viewer.state.lights.map((light) => light.kind).join(),
+        () => String(viewer.state.lights.length),
         () => viewer.state.lights.map((_, i) => lightControls(viewer, i)),
     );
     const add = element("button", {

@@ -26,9 +26,10 @@ export function lightControls(viewer, index) {
         viewer.select(index);
     };
     const most = () => Math.max(...light().power);
-    const name = `Light ${index + 1}`;
+    const number = index + 1;
+    const name = `Light ${number}`;
     const well = colour({
-        label: `Colour of ${name.toLowerCase()}`, bare: true,
+        label: `Colour of light ${number}`, bare: true,
         read: () => light().power.map((p) => p / (most() || 1)),
         write: (rgb) => {
             const peak = Math.max(...rgb) || 1;
@@ -36,7 +37,7 @@ export function lightControls(viewer, index) {
         },
     });
     const kind = select({
-        label: `Kind of ${name.toLowerCase()}`,
+        label: `Kind of light ${number}`,
         options: () => [["directional", "Parallel"], ["point", "Point"]],
         read: () => light().kind,
         write: (value) => change(converted(light(), value, viewer)),
@@ -49,8 +50,10 @@ export function lightControls(viewer, index) {
             change({ ...light(), power: scale ? light().power.map((p) => p * scale) : [value, value, value] });
         },
     });
-    const remove = iconButton("close", `Remove ${name.toLowerCase()}`, () =>
-        viewer.set({ lights: viewer.state.lights.filter((_, i) => i !== index) }));
+    const remove = iconButton("close", `Remove light ${number}`, () => {
+        viewer.set({ lights: viewer.state.lights.filter((_, i) => i !== index) });
+        viewer.canvas.focus();  // the button is gone
+    });
     const list = /** @type {HTMLElement} */ (kind.element.querySelector("select"));
     const made = element("div", { class: "light", role: "group", "aria-label": name },
         element("div", { class: "light-head" }, well.element, element("span", { class: "label" }, name), list, remove),

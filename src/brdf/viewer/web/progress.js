@@ -230,9 +230,9 @@ export class Progress {
         this.host.present(pictures, this.shots);
     }
 
-    /** Shows again what is shown, in this very task: for reading the canvas. */
+    /** Shows again what is shown, in this very task: for reading the canvas. Not where other pictures are wanted now. */
     again() {
-        if (this.shown.length) this.present(this.shown);
+        if (this.shown.length === this.host.shots().length) this.present(this.shown);
     }
 
     dispose() {

@@ -103,7 +103,7 @@ function plainNumbers(values) {
 
 /** @param {any} given @returns {Light | null} */
 function light(given) {
-    const power = numbers(given?.power, 3)?.map((p) => clamped(p, [0, 1e6]));
+    const power = numbers(given?.power, 3)?.map((p) => clamped(p, [0, 1e15]));
     if (!power) return null;
     if (given.kind === "point") {
         const position = numbers(given.position, 3);

@@ -50,7 +50,7 @@ export class Viewer {
         const canvas = element("canvas", { role: "img", tabindex: 0, "aria-describedby": `brdf-keys-${++mounted}` });
         const given = { antialias: false, alpha: false, depth: false, powerPreference: "high-performance" };
         const gl = canvas.getContext("webgl2", /** @type {WebGLContextAttributes} */ (given));
-        if (!gl) throw new Error("This browser has no WebGL2, so the picture cannot be turned; a newer browser can.");
+        if (!gl) throw new Error("This browser has no WebGL2.");
         this.root = root;
         this.options = options;
         this.payload = payload;
@@ -330,6 +330,7 @@ export class Viewer {
         this.evaluator.forget();
         this.progress.restart();
         this.drawer.rebuild();
+        this.refresh();
     }
 
     // ---- the rest
@@ -356,16 +357,20 @@ export class Viewer {
     /**
      * Shows another material as A, or as B where two are compared, once it is known that it can be drawn: else throws.
      * @param {import("./material.js").Source} source
+     * @param {number} [wanted] 0 for A, 1 for B
      */
-    async add(source) {
+    async add(source, wanted) {
         const material = new Material(this.gl, source);
         const stage = this.renderer.stageOf(this.shots()[0].scene);
         while (!material.program(stage).ready) await new Promise(requestAnimationFrame);
         material.use(stage);
         const { materials, parameters, compare } = this.state;
-        const slot = compare === "first" ? 0 : 1;
+        const slot = wanted ?? Number(compare !== "first");
         const index = this.slots.take(slot, material);
-        this.set({ materials: materials.with(slot, index), parameters: parameters.with(slot, {}) });
+        this.set({
+            materials: materials.with(slot, index), parameters: parameters.with(slot, {}),
+            ...(slot && compare === "first" && { compare: "split" }),
+        });
         this.frame.notice(`${source.shader.name} is shown as ${NAMES[slot]}.`);
     }
 

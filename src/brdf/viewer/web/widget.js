@@ -25,13 +25,16 @@ function render({ model, el }) {
     const hear = () => {
         const state = model.get("state");
         const heard = JSON.stringify(state);
-        if (viewer && heard !== told && heard !== "{}") viewer.setState(state);
+        if (!viewer || heard === told || heard === "{}") return;
+        viewer.setState(state);
+        tell();  // what was not valid of it is not there
     };
     const show = () => {
         viewer?.destroy();
         root.replaceChildren();
         try {
             viewer = mount(root, model.get("payload"), { embedded: true });
+            told = "";  // by the one before
             hear();
             viewer.onChange(tell);
         } catch (error) {

@@ -171,9 +171,9 @@ class Solid {
             ink.stroke();
         };
         const rim = Array.from({ length: 97 }, (_, i) => spherical(Math.PI / 2, (i * Math.PI) / 48));
-        line(rim, named("--grid"), 1);
-        for (const [x, y] of [[1, 0], [0, 1]]) line([[-x, -y, 0], [x, y, 0]], named("--grid"), 1);
-        line([[0, 0, 0], [0, 0, 1]], named("--grid"), 1);
+        line(rim, named("--line"), 1);
+        for (const [x, y] of [[1, 0], [0, 1]]) line([[-x, -y, 0], [x, y, 0]], named("--line"), 1);
+        line([[0, 0, 0], [0, 0, 1]], named("--line"), 1);
         const wi = spherical(this.options.angle * DEGREE, Math.PI);
         line([[0, 0, 0], wi.map((part) => 1.1 * part)], named("--text"), 1.5);
         const [x, y] = see(wi.map((part) => 1.16 * part));

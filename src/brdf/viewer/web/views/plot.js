@@ -49,7 +49,7 @@ export function text(content, x, y, anchor = "middle", more = {}) {
 
 /** @param {number} x1 @param {number} y1 @param {number} x2 @param {number} y2 @param {Record<string, any>} more */
 export function rule(x1, y1, x2, y2, more = {}) {
-    return svg("line", { x1, y1, x2, y2, stroke: "var(--grid)", ...more });
+    return svg("line", { x1, y1, x2, y2, stroke: "var(--line)", ...more });
 }
 
 /**

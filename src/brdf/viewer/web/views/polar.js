@@ -45,7 +45,7 @@ export const polar = curveView({
             x + radius * share * Math.sin(angle * DEGREE), y - radius * share * Math.cos(angle * DEGREE),
         ];
         const arc = (/** @type {number} */ r) => svg("path", {
-            d: `M${x - r} ${y}A${r} ${r} 0 0 1 ${x + r} ${y}`, fill: "none", stroke: "var(--grid)",
+            d: `M${x - r} ${y}A${r} ${r} 0 0 1 ${x + r} ${y}`, fill: "none", stroke: "var(--line)",
         });
         const parts = [
             arc(radius), ...rings.map(({ at }) => arc(radius * part(at))),
