@@ -26,6 +26,9 @@ LANGUAGES: dict[str, Callable[..., tuple[str, Body]]] = {".glsl": glsl.print_gls
 
 RESERVED = {".glsl": glsl.RESERVED, ".wgsl": wgsl.RESERVED}
 
+NAME = r"(?!gl_|GL_)[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*"
+"""Of a function: GLSL keeps two underscores in a row, and names and macros that begin with GL, to itself."""
+
 MOST_TEXTURES = 16
 """That every card binds to one shader at a time."""
 
@@ -68,8 +71,8 @@ def shader_of(m: Reflectance, language: str = ".glsl", function: str | None = No
             "as in `brdf convert X baked.safetensors --as slice-stack`"
         )
     name = function_name(m) if function is None else function
-    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9]*(_[A-Za-z0-9]+)*", name) or name in RESERVED[language]:
-        rule = "letters, digits, single underscores and is no word of the language"
+    if not re.fullmatch(NAME, name) or name in RESERVED[language]:
+        rule = "letters, digits, single underscores, no gl_ in front, and is no word of the language"
         raise ParameterError(f"a function's name has {rule}; got {name!r}")
     declared = {key: declaration(m, key) for key in m.values}
     notes = {key: _note(m.values[key], declared[key]) for key in m.values}

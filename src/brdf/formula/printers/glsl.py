@@ -49,17 +49,54 @@ def _call(op: str, arguments: list[str]) -> str:
 
 
 _WORDS = """
-    abs active all any asm atan attribute bool break bvec2 bvec3 bvec4 case cast ceil centroid clamp class common const
-    continue cos cross default degrees determinant discard distance do dot double else enum equal exp exp2 extern
-    external false filter fixed flat float floor for fract goto half highp hvec3 if image in inline inout input int
-    interface invariant inverse isinf isnan ivec2 ivec3 ivec4 layout length log log2 long lowp main mat2 mat3 mat4 max
-    mediump min mix mod namespace noinline normalize not out output packed partition patch pow precise precision public
-    radians reflect refract resource return round sample sampler sampler2D sampler3D short sign sin sinh sizeof smooth
-    sqrt static step struct subroutine superp switch tan tanh template texture this transpose true trunc typedef uint
-    uniform union unsigned using uvec2 uvec3 uvec4 varying vec2 vec3 vec4 void volatile while
+    EmitStreamVertex EmitVertex EndPrimitive EndStreamPrimitive abs acos acosh active all allInvocations
+    allInvocationsEqual any anyInvocation asin asinh asm atan atanh atomicAdd atomicAnd atomicCompSwap atomicCounter
+    atomicCounterAdd atomicCounterAnd atomicCounterCompSwap atomicCounterDecrement atomicCounterExchange
+    atomicCounterIncrement atomicCounterMax atomicCounterMin atomicCounterOr atomicCounterSubtract atomicCounterXor
+    atomicExchange atomicMax atomicMin atomicOr atomicXor atomic_uint attribute barrier bitCount bitfieldExtract
+    bitfieldInsert bitfieldReverse bool break buffer case cast ceil centroid clamp class coherent common const
+    continue cos cosh cross dFdx dFdxCoarse dFdxFine dFdy dFdyCoarse dFdyFine default degrees determinant discard
+    distance do dot double else enum equal exp exp2 extern external faceforward false filter findLSB findMSB fixed
+    flat float floatBitsToInt floatBitsToUint floor fma for fract frexp ftransform fwidth fwidthCoarse fwidthFine
+    goto greaterThan greaterThanEqual groupMemoryBarrier half highp if image imageAtomicAdd imageAtomicAnd
+    imageAtomicCompSwap imageAtomicExchange imageAtomicMax imageAtomicMin imageAtomicOr imageAtomicXor imageLoad
+    imageSamples imageSize imageStore imulExtended in inline inout input int intBitsToFloat interface
+    interpolateAtCentroid interpolateAtOffset interpolateAtSample invariant inverse inversesqrt isinf isnan
+    isubpassInput isubpassInputMS layout ldexp length lessThan lessThanEqual log log2 long lowp main matrixCompMult
+    max mediump memoryBarrier memoryBarrierAtomicCounter memoryBarrierBuffer memoryBarrierImage memoryBarrierShared
+    min mix mod modf namespace noinline noise1 noise2 noise3 noise4 noperspective normalize not notEqual out
+    outerProduct output packDouble2x32 packHalf2x16 packSnorm2x16 packSnorm4x8 packUnorm2x16 packUnorm4x8 packed
+    partition patch pow precise precision public radians readonly reflect refract resource restrict return round
+    roundEven row_major sample sampler sampler3DRect samplerShadow shadow1D shadow1DLod shadow1DProj shadow1DProjLod
+    shadow2D shadow2DLod shadow2DProj shadow2DProjLod shared short sign sin sinh sizeof smooth smoothstep sqrt
+    static step struct subpassInput subpassInputMS subpassLoad subroutine superp switch tan tanh template texelFetch
+    texelFetchOffset texture texture1DLod texture1DProj texture1DProjLod texture2DLod texture2DProj texture2DProjLod
+    texture3DLod texture3DProj texture3DProjLod textureCubeLod textureGather textureGatherOffset
+    textureGatherOffsets textureGrad textureGradOffset textureLod textureLodOffset textureOffset textureProj
+    textureProjGrad textureProjGradOffset textureProjLod textureProjLodOffset textureProjOffset textureQueryLevels
+    textureQueryLod textureSamples textureSize this transpose true trunc typedef uaddCarry uint uintBitsToFloat
+    umulExtended uniform union unpackDouble2x32 unpackHalf2x16 unpackSnorm2x16 unpackSnorm4x8 unpackUnorm2x16
+    unpackUnorm4x8 unsigned using usubBorrow usubpassInput usubpassInputMS varying void volatile while writeonly
+"""
+"""Of GLSL 3.30 to 4.60 and ES 3.00 to 3.20, as any of which the text may be compiled, and of what Vulkan adds."""
+
+_NUMBERS = {f"{kind}vec{size}" for kind in ("", "b", "d", "f", "h", "i", "u") for size in "234"} | {
+    f"{kind}mat{columns}{rows}" for kind in ("", "d") for columns in "234" for rows in ("", "x2", "x3", "x4")
+}
+
+_SHAPES = """
+    1D 2D 3D Cube Buffer 2DRect 2DMS 1DArray 2DArray CubeArray 2DMSArray 1DShadow 2DShadow CubeShadow 2DRectShadow
+    1DArrayShadow 2DArrayShadow CubeArrayShadow
 """
 
-RESERVED = helper_names("glsl").union(_WORDS.split())
+_OPAQUE = {
+    f"{kind}{what}{shape}"
+    for kind in ("", "i", "u")
+    for what in ("image", "sampler", "texture")
+    for shape in _SHAPES.split()
+}
+
+RESERVED = helper_names("glsl").union(_WORDS.split(), _NUMBERS, _OPAQUE)
 """What nothing of a formula may be called: words of the language, and the library's functions."""
 
 

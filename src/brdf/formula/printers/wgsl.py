@@ -19,20 +19,51 @@ _FUNCTIONS = {
 _SIGNS = {"lt3": "<", "le3": "<="}
 
 _WORDS = """
-    Parameters parameters abs acos active alias all any array as asm async atan auto await bitcast bool break case cast
-    catch ceil clamp class common compile const const_assert continue continuing cos cross crate debugger decltype
-    default degrees delete determinant diagnostic discard distance do dot else enum exp exp2 explicit export extends
-    extern f16 f32 fallthrough false filter final finally floor fn for fract friend from get goto handle i32 if
-    implements import inline instanceof interface inverse layout length let log log2 loop lowp macro main mat2x2 mat3x3
-    mat4x4 match max mediump meta min mix mod module move mut namespace new nil noexcept normalize null of operator
-    override package packoffset pass patch pow precise precision premerge priv private protected ptr pub public
-    radians readonly ref reflect refract register require resource restrict return round sampler select self set shared
-    sign sin sinh sizeof smooth sqrt static std step struct super switch tan tanh target template texture this throw
-    transpose true trunc try type typedef typeid typeof u32 union unless unorm unsafe unsized use using var vec2 vec2f
-    vec3 vec3f vec4 vec4f virtual void volatile wgsl where while with writeonly yield
+    NULL Parameters Self abs abstract acos acosh active alias alignas alignof all any array arrayLength as asin
+    asinh asm asm_fragment async atan atan2 atanh atomic atomicAdd atomicAnd atomicCompareExchangeWeak
+    atomicExchange atomicLoad atomicMax atomicMin atomicOr atomicStore atomicSub atomicXor attribute auto await
+    become bgra8unorm binding_array bitcast bool break case cast catch ceil clamp class co_await co_return co_yield
+    coherent column_major common compile compile_fragment concept const const_assert const_cast consteval constexpr
+    constinit continue continuing cos cosh countLeadingZeros countOneBits countTrailingZeros crate cross debugger
+    decltype default degrees delete demote demote_to_helper determinant diagnostic discard distance do dot
+    dot4I8Packed dot4U8Packed dpdx dpdxCoarse dpdxFine dpdy dpdyCoarse dpdyFine dynamic_cast else enable enum exp
+    exp2 explicit export extends extern external extractBits f16 f32 faceForward fallthrough false filter final
+    finally firstLeadingBit firstTrailingBit floor fma fn for fract frexp friend from function fwidth fwidthCoarse
+    fwidthFine fxgroup get goto groupshared handle highp i32 if impl implements import inline insertBits instanceof
+    interface inverse inverseSqrt layout ldexp length let log log2 loop lowp macro macro_rules main match max
+    mediump meta min mix mod modf module move mut mutable namespace new nil noexcept noinline nointerpolation
+    non_coherent noncoherent noperspective normalize null nullptr of operator override pack2x16float pack2x16snorm
+    pack2x16unorm pack4x8snorm pack4x8unorm pack4xI8 pack4xI8Clamp pack4xU8 pack4xU8Clamp package packoffset
+    parameters partition pass patch pixelfragment pow precise precision premerge priv private protected ptr pub
+    public quadBroadcast quadSwapDiagonal quadSwapX quadSwapY quantizeToF16 radians read read_write readonly ref
+    reflect refract regardless register reinterpret_cast require requires resource restrict return reverseBits
+    rg11b10ufloat rgb10a2uint rgb10a2unorm round sampler sampler_comparison saturate select self set shared sign sin
+    sinh sizeof smooth smoothstep snorm sqrt static static_assert static_cast std step storage storageBarrier struct
+    subgroupAdd subgroupAll subgroupAnd subgroupAny subgroupBallot subgroupBroadcast subgroupBroadcastFirst
+    subgroupElect subgroupExclusiveAdd subgroupExclusiveMul subgroupInclusiveAdd subgroupInclusiveMul subgroupMax
+    subgroupMin subgroupMul subgroupOr subgroupShuffle subgroupShuffleDown subgroupShuffleUp subgroupShuffleXor
+    subgroupXor subroutine super switch tan tanh target template texture textureBarrier textureDimensions
+    textureGather textureGatherCompare textureLoad textureNumLayers textureNumLevels textureNumSamples textureSample
+    textureSampleBaseClampToEdge textureSampleBias textureSampleCompare textureSampleCompareLevel textureSampleGrad
+    textureSampleLevel textureStore texture_1d texture_2d texture_2d_array texture_3d texture_cube
+    texture_cube_array texture_depth_2d texture_depth_2d_array texture_depth_cube texture_depth_cube_array
+    texture_depth_multisampled_2d texture_external texture_multisampled_2d texture_storage_1d texture_storage_2d
+    texture_storage_2d_array texture_storage_3d this thread_local throw trait transpose true trunc try type typedef
+    typeid typename typeof u32 uniform union unless unorm unpack2x16float unpack2x16snorm unpack2x16unorm
+    unpack4x8snorm unpack4x8unorm unpack4xI8 unpack4xU8 unsafe unsized use using var varying virtual void volatile
+    wgsl where while with workgroup workgroupBarrier workgroupUniformLoad write writeonly yield
 """
+"""Keywords and reserved words of WGSL, what it declares beforehand, and what the printed text declares."""
 
-RESERVED = helper_names("wgsl").union(_WORDS.split())
+_NUMBERS = {f"vec{size}{kind}" for size in "234" for kind in ("", "f", "h", "i", "u")} | {
+    f"mat{columns}x{rows}{kind}" for columns in "234" for rows in "234" for kind in ("", "f", "h")
+}
+
+_STORED = "8unorm 8snorm 8uint 8sint 16unorm 16snorm 16uint 16sint 16float 32uint 32sint 32float"
+
+_TEXELS = {f"{channels}{stored}" for channels in ("r", "rg", "rgba") for stored in _STORED.split()}
+
+RESERVED = helper_names("wgsl").union(_WORDS.split(), _NUMBERS, _TEXELS)
 """What nothing of a formula may be called: words of the language, and the library's functions."""
 
 
