@@ -5,6 +5,7 @@ from __future__ import annotations
 import gzip
 import http.client
 import socket
+import struct
 import threading
 import time
 from collections.abc import Iterator
@@ -103,6 +104,42 @@ def test_an_upload_is_refused_before_it_is_read(server: Server) -> None:
         assert connection.recv(100).startswith(b"HTTP/1.1 405 ")
         while connection.recv(1000):  # the server hangs up, although it was sent nothing of all that
             pass
+
+
+@pytest.mark.parametrize("path", ["TOKEN/", "TOKEN/payload", "TOKEN/events", "elsewhere"])
+@pytest.mark.parametrize("most", [1, 10000])
+def test_a_connection_that_is_reset_prints_nothing(
+    path: str, most: int, server: Server, capsys: pytest.CaptureFixture[str]
+) -> None:
+    connection = http.client.HTTPConnection(HOST, server.port, timeout=LIMIT)
+    connection.request("GET", "/" + path.replace("TOKEN", server.token))
+    connection.sock.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))  # closing it resets
+    answer = connection.getresponse()
+    answer.read1(most)
+    answer.close()
+    connection.close()
+    if path.endswith("events"):
+        server.stop()  # of a page that is gone, the stream would learn at its next sign of life
+    until(lambda: not answering())
+    assert capsys.readouterr().err == ""
+
+
+def answering() -> list[threading.Thread]:
+    return [thread for thread in threading.enumerate() if "process_request_thread" in thread.name]
+
+
+def test_mistakes_of_ours_are_printed(capsys: pytest.CaptureFixture[str]) -> None:
+    def fails() -> bytes:
+        raise ZeroDivisionError("in the picture")
+
+    running = Server(lambda: Contents("", bytes, fails))
+    try:
+        with pytest.raises(http.client.RemoteDisconnected):
+            ask(running, f"/{running.token}/picture")
+        until(lambda: not answering())
+        assert "ZeroDivisionError: in the picture" in capsys.readouterr().err
+    finally:
+        running.stop()
 
 
 def test_it_listens_to_this_machine_alone(server: Server) -> None:

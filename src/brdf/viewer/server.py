@@ -5,12 +5,13 @@ from __future__ import annotations
 import gzip
 import os
 import secrets
+import sys
 import threading
 from collections.abc import Callable, Sequence
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from .. import __version__
 from ..errors import BrdfError, ParameterError
@@ -139,6 +140,11 @@ class _HTTPServer(ThreadingHTTPServer):
     allow_reuse_address = os.name == "posix"
     owner: Server
 
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Print what went wrong, unless the other side hung up, as browsers do at any time: that is no mistake."""
+        if not isinstance(sys.exception(), ConnectionError):
+            super().handle_error(request, client_address)
+
 
 def _listening(port: int, owner: Server) -> _HTTPServer:
     if not 0 <= port <= 65535:
@@ -175,8 +181,6 @@ class _Handler(BaseHTTPRequestHandler):
             PATHS[name](self)
         except BrdfError as error:
             self._answer(HTTPStatus.CONFLICT, "text/plain; charset=utf-8", str(error).encode())
-        except (BrokenPipeError, ConnectionResetError):
-            self.close_connection = True
 
     do_HEAD = do_GET  # noqa: N815  (so the library calls it)
 
