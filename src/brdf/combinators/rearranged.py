@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from ..errors import ReflectanceError
 from ..formula.vec import Vec
 from ..reflectance import Floats, Reflectance
+from .of_one import OfOne
 
 
-class Rearranged(Reflectance):
+class Rearranged(OfOne):
     """f(wi, wo) = f_base at a pair of directions made of the given ones, which keeps them above the horizon.
 
     Raises ReflectanceError for a base that transmits or mirrors.
@@ -23,40 +24,12 @@ class Rearranged(Reflectance):
     def __init__(self, base: Reflectance) -> None:
         if base.transmits or base.has_delta:
             raise ReflectanceError(f"{base.name or type(base).__name__} transmits or mirrors; only values can be moved")
-        self._children = {"base": base}
-        self.name, self.source = base.name, base.source
+        super().__init__(base)
+        self.source = base.source
 
     @abstractmethod
     def pair(self, wi: Vec, wo: Vec) -> tuple[Vec, Vec]:
         """The directions at which the base is evaluated."""
-
-    @property
-    def children(self) -> Mapping[str, Reflectance]:
-        return self._children
-
-    @property
-    def has_formula(self) -> bool:
-        return self._children["base"].has_formula
-
-    @property
-    def isotropic(self) -> bool:
-        return self._children["base"].isotropic
-
-    @property
-    def varies(self) -> bool:  # type: ignore[override]
-        return self._children["base"].varies
-
-    @property
-    def structure(self) -> tuple[Any, ...]:
-        return (type(self), self._children["base"].structure)
-
-    @property
-    def values(self) -> Mapping[str, Any]:
-        return {f"base_{k}": v for k, v in self._children["base"].values.items()}
-
-    @property
-    def textures(self) -> Mapping[str, NDArray[Any]]:
-        return {f"base_{k}": v for k, v in self._children["base"].textures.items()}
 
     def f(self, wi: Vec, wo: Vec) -> Vec:
         bound: Any = self

@@ -14,6 +14,7 @@ from ..formula.vec import Vec
 from ..geometry.sampling import MixtureSampler, Sampler
 from ..parameters import RGB, Parameterised, rgb
 from ..reflectance import Floats, Reflectance
+from .of_one import OfOne
 
 _SHARE = rgb("share of the second", default=0.5, low=0.0, high=1.0)
 
@@ -104,23 +105,14 @@ class Sum(Reflectance):
         return " + ".join(map(repr, self._children.values()))
 
 
-class Scaled(Parameterised, Reflectance):
+class Scaled(Parameterised, OfOne):
     """f = scale · f_base."""
 
     scale: RGB = rgb("factor", default=1.0, low=0.0)
 
     def __init__(self, base: Reflectance, scale: Any = 1.0) -> None:
         super().__init__(scale=scale)
-        self._children = {"base": base}
-        self.name = base.name
-
-    @property
-    def has_formula(self) -> bool:
-        return self._children["base"].has_formula
-
-    @property
-    def isotropic(self) -> bool:
-        return self._children["base"].isotropic
+        OfOne.__init__(self, base)
 
     @property
     def structure(self) -> tuple[Any, ...]:
@@ -135,16 +127,8 @@ class Scaled(Parameterised, Reflectance):
         return {f"base_{k}": v for k, v in self._children["base"].textures.items()}
 
     @property
-    def children(self) -> Mapping[str, Reflectance]:
-        return self._children
-
-    @property
     def transmits(self) -> bool:  # type: ignore[override]
         return self._children["base"].transmits
-
-    @property
-    def varies(self) -> bool:  # type: ignore[override]
-        return self._children["base"].varies
 
     @property
     def relative_index(self) -> float:
