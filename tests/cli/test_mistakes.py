@@ -11,7 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import brdf
 from brdf import SphereImages, io, models
+from brdf.errors import FileError
 
 Refused = Callable[..., str]
 
@@ -388,3 +390,87 @@ def test_environments_and_meshes_are_inputs_too(refused: Refused, tmp_path: Path
     line = refused("render", "Lambertian", *DRAFT, "--env", "sky.exr", "-o", "sky.exr")
     assert "sky.exr: is the input itself" in line
     assert (tmp_path / "sky.exr").read_bytes() == content
+
+
+def test_in_python_too_a_conversion_does_not_replace_its_source(tmp_path: Path) -> None:
+    io.write(models.Lambertian(), tmp_path / "x.dat")
+    with pytest.raises(FileError, match="is the input itself"):
+        brdf.convert(tmp_path / "x.dat", tmp_path / "x.dat")
+    m = brdf.load(tmp_path / "x.dat")
+    io.write(m, tmp_path / "x.dat")  # who reads and writes himself is asked nothing
+
+
+# ---- scenes ------------------------------------------------------------------------------------------------------
+
+
+def test_an_unknown_mesh_is_answered_with_the_nearest(refused: Refused) -> None:
+    assert "did you mean 'teapot'?" in refused("render", "GGX", "--mesh", "teapott", "--no-compare")
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"),
+        ("points.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                       "property float z\nend_header\n0 0 0\n"),
+        ("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n"),
+    ],
+)  # fmt: skip
+def test_a_mesh_with_no_faces_is_refused(refused: Refused, tmp_path: Path, name: str, content: str) -> None:
+    (tmp_path / name).write_text(content)
+    line = refused("render", "GGX", "--mesh", name, "--no-compare")
+    assert f"{name}: " in line
+    assert "faces" in line
+
+
+def test_a_mesh_file_of_no_known_format_is_refused(refused: Refused, tmp_path: Path) -> None:
+    (tmp_path / "shape.txt").write_text("round")
+    assert "shape.txt: " in refused("render", "GGX", "--mesh", "shape.txt", "--no-compare")
+
+
+@pytest.mark.parametrize("extension", ["png", "jpg", "hdr", "exr"])
+def test_an_ldr_picture_is_no_environment(refused: Refused, tmp_path: Path, extension: str) -> None:
+    from PIL import Image
+
+    name = f"room.{extension}"
+    Image.new("RGB", (8, 4)).save(tmp_path / name, format="JPEG" if extension == "jpg" else "PNG")
+    line = refused("render", "GGX", "--env", name, "--no-compare")
+    assert f"{name}: " in line
+    assert ".hdr" in line
+    assert ".exr" in line
+
+
+@pytest.mark.parametrize(
+    ("light", "said"),
+    [
+        ("directionl:theta=3", "did you mean 'directional'?"),
+        ("directional:tehta=3", "did you mean 'theta'"),
+        ("directional:theta=up", "theta"),
+        ("point", "a point light needs its position"),
+        ("point:1/2", "position"),
+        ("directional:power=-1", "power"),
+    ],
+)
+def test_a_wrong_light_is_named(refused: Refused, light: str, said: str) -> None:
+    assert said in refused("render", "GGX", "--light", light, "--no-compare")
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "said"),
+    [
+        ("--tone", "flimic", "did you mean 'filmic'?"),
+        ("--background", "gradiant", "did you mean 'gradient'?"),
+        ("--samples", "0", "samples"),
+        ("--seed", "-1", "seed"),
+        ("--env", "studoi", "did you mean 'studio'?"),
+        ("--env", "nan", "nan"),
+        ("--env", "-1", "-1"),
+        ("--env", "1e39", "not finite"),
+        ("--exposure", "inf", "exposure"),
+        ("--exposure", "5000", "exposure must lie in"),
+    ],
+)
+def test_a_wrong_option_value_is_named(refused: Refused, tmp_path: Path, option: str, value: str, said: str) -> None:
+    line = refused("render", "GGX", *DRAFT, f"{option}={value}")
+    assert said in line
+    assert os.listdir(tmp_path) == []
