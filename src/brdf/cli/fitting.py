@@ -29,11 +29,12 @@ def fit_folder(
     """Make the fits, then the table and the page. Raises FailedFitsError, when everything else is done."""
     from ..fit.batch import fit_many
     from ..fit.table import require_kind, write_table
+    from ..loading import files_of
     from ..reproduce.fits import write_page
 
-    for spec in data:  # workers read them, and what was fitted before is not read again
-        if Path(spec).exists():
-            inputs.note(spec)
+    for spec in (*data, *models):  # workers read them, and what was fitted before is not read again
+        for file in files_of(spec):
+            inputs.note(file)
     if table is not None:
         require_kind(table)
         output.require_writable(table)

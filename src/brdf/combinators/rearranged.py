@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ..errors import ReflectanceError
 from ..formula.vec import Vec
+from ..geometry.arguments import MIDDLE
 from ..reflectance import Floats, Reflectance
 from .of_one import OfOne
 
@@ -37,7 +38,7 @@ class Rearranged(OfOne):
         return value
 
     def _evaluate_arrays(self, wi: Floats, wo: Floats, clamp: bool) -> Floats:
-        return self._evaluate_places(wi, wo, np.full((len(wi), 2), 0.5, wi.dtype), clamp)
+        return self._evaluate_places(wi, wo, np.full((len(wi), 2), MIDDLE, wi.dtype), clamp)
 
     def _evaluate_places(self, wi: Floats, wo: Floats, uv: Floats, clamp: bool) -> Floats:
         base = self._children["base"]

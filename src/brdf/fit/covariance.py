@@ -75,8 +75,8 @@ def certainty(
     """
     low, high = (np.array([getattr(c, side) for c in components]) for side in ("low", "high"))
     least = np.maximum(low, [c.lowest for c in components])
-    at_bound = free & (np.isclose(numbers, least, 1e-9, 0) | np.isclose(numbers, high, 1e-9, 0))
-    at_bound |= free & ((numbers < least) | (numbers > high))
+    near = np.isclose(numbers, least, 1e-9, 0) | np.isclose(numbers, high, 1e-9, 0)
+    at_bound = free & (near | (numbers < least) | (numbers > high))
     effect = np.diag(hessian) * np.maximum(np.abs(numbers), 1e-3) ** 2
     known = np.flatnonzero(free & ~at_bound & (effect > SILENT * effect.max()))
     errors = np.full(len(numbers), np.nan)

@@ -70,7 +70,7 @@ def fit(
     isotropic = reflectance is None or reflectance.isotropic
     pictures = radiances(reflectance) if reflectance is not None else None
     results = []
-    for count in range(1, most_lobes(model) + 1) if isinstance(lobes, str) else [int(lobes)]:
+    for count in range(1, most_lobes(model) + 1) if isinstance(options.lobes, str) else [options.lobes]:
         template = template_of(model, count, diffuse, isotropic)
         name = model if isinstance(model, str) else getattr(model, "__name__", "") or _label(model)
         say(f"{name}, {count} lobes" if count > 1 else name)
@@ -176,7 +176,7 @@ class _Fit:
             made, samples.name, name, lobes, self.options.metric, estimates, sure.correlation,
             sure.warnings + gains(made),
             errors_of(samples, fitted, self.pictures, made), residual_map(samples, fitted), cost, float(bic),
-            len(samples), samples.left_out, samples.grazing, int(self.options.starts), agreeing, int(self.options.seed),
+            len(samples), samples.left_out, samples.grazing, self.options.starts, agreeing, self.options.seed,
             time.perf_counter() - begun, self.options.robust or "",
         )  # fmt: skip
 

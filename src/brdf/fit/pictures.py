@@ -134,12 +134,14 @@ class PictureEquations:
         self, numbers: NDArray[np.float64], is_monochrome: bool
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """As `covariance.sandwich`: each pixel is a measurement, of three channels or of copies of one."""
-        products = np.zeros((self._parameters, self._parameters))
+        curvature, products = np.zeros((2, self._parameters, self._parameters))
         together = np.zeros((self._parameters, len(pixels().weight)))
         for ids, J, residual in self._rows(numbers):
-            products[np.ix_(ids, ids)] += (J * residual) @ (J * residual).T
-            together[ids] += J * residual
-        return self(numbers).hessian, together @ together.T if is_monochrome else products
+            scores, block = J * residual, np.ix_(ids, ids)
+            curvature[block] += J @ J.T
+            products[block] += scores @ scores.T
+            together[ids] += scores
+        return curvature, together @ together.T if is_monochrome else products
 
     def _rows(
         self, numbers: NDArray[np.float64]

@@ -106,8 +106,8 @@ def _stack(m: Reflectance) -> tuple[Reflectance | None, str]:
         "transmits": m.transmits, "mirrors": m.has_delta, "varies over the surface": m.varies,
         "is anisotropic": not m.isotropic,
     }  # fmt: skip
-    if any(kinds.values()):
-        kind = next(name for name, applies in kinds.items() if applies)
+    kind = next((name for name, applies in kinds.items() if applies), "")
+    if kind:
         return None, f"{m.name or type(m).__name__} {kind}, which a slice stack cannot hold; it is drawn alone"
     if isinstance(m, Table) and m.layout in SliceStack.layouts():
         return None, ""
